@@ -8,7 +8,6 @@
 namespace ashlar {
 namespace {
 
-constexpr int most_sweeps = 20000;
 constexpr double accuracy = 1e-13;  ///< of the velocities: change in a sweep that ends the iteration
 
 class Impact {
@@ -26,12 +25,15 @@ class Impact {
     }
   }
 
-  void solve() {
+  /// @return residual
+  double solve(int most_sweeps) {
+    double most = 0.0;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      double most = 0.0;
+      most = 0.0;
       for (std::size_t k = 0; k < points_.size(); ++k) most = std::max(most, update(k));
-      if (!(most > accuracy * fastest_)) return;
+      if (!(most > accuracy * fastest_)) break;
     }
+    return fastest_ > 0.0 ? most / fastest_ : 0.0;
   }
 
   /// Work of the impulses, J: half of them acts on the velocity before, half on that after.
@@ -47,7 +49,7 @@ class Impact {
     impulses_.assign(points_.size(), Eigen::Vector3d::Zero());
     for (std::size_t k = 0; k < points_.size(); ++k) add(k, impulses[k]);
   }
-  [[nodiscard]] ImpactResult result() const { return {changes_, impulses_, work()}; }
+  [[nodiscard]] ImpactResult result(double residual) const { return {changes_, impulses_, work(), residual}; }
 
  private:
   [[nodiscard]] Eigen::Vector3d change_at(std::size_t k) const {
@@ -119,20 +121,20 @@ std::vector<Eigen::Vector3d> between(const std::vector<Eigen::Vector3d>& first,
 }  // namespace
 
 ImpactResult solve_impact(const std::vector<double>& inertia, const std::vector<int>& sizes,
-                          const std::vector<ImpactPoint>& points) {
+                          const std::vector<ImpactPoint>& points, int most_sweeps) {
   Impact impact(inertia, sizes, points);
-  impact.solve();
+  double residual = impact.solve(most_sweeps);
   double speed = 0.0, impulse = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     speed = std::max(speed, points[k].velocity.norm());
     impulse += impact.impulses()[k].norm();
   }
   const double rounding = 1e-12 * impulse * speed;
-  if (impact.work() <= rounding) return impact.result();
+  if (impact.work() <= rounding) return impact.result(residual);
   std::vector<ImpactPoint> plastic = points;
   for (ImpactPoint& point : plastic) point.target = std::min(point.target, 0.0);
   Impact stopped(inertia, sizes, plastic);
-  stopped.solve();
+  residual = std::max(residual, stopped.solve(most_sweeps));
   const std::vector<Eigen::Vector3d> elastic = impact.impulses();
   double low = 0.0, high = 1.0;
   constexpr int halvings = 60;  // to the last bit
@@ -142,7 +144,7 @@ ImpactResult solve_impact(const std::vector<double>& inertia, const std::vector<
     (impact.work() <= 0.0 ? low : high) = share;
   }
   impact.set_impulses(between(stopped.impulses(), elastic, low));
-  return impact.result();
+  return impact.result(residual);
 }
 
 }  // namespace ashlar

@@ -37,11 +37,17 @@ struct ImpactResult {
   std::vector<Eigen::VectorXd> changes;   ///< z, by body
   std::vector<Eigen::Vector3d> impulses;  ///< j, by point, N s on a along (n, t1, t2)
   double work = 0.0;                      ///< of the impulses, on given motion too, J, <= 0
+  /// Largest change of a point's velocity in the last sweep, over the fastest approach. Above impact_accuracy the
+  /// sweeps did not converge: the impulses are not those of the law
+  double residual = 0.0;
 };
 
+/// Residual of a solution that is as good as exact.
+inline constexpr double impact_accuracy = 1e-6;
+
 /// @param inertia of each body: a multiple of the unit matrix, kg/m^3 in mass-orthonormal functions
-/// @param sizes number of velocities of each body
+/// @param sizes number of velocities of each body. @param most_sweeps over the points, > 0
 [[nodiscard]] ImpactResult solve_impact(const std::vector<double>& inertia, const std::vector<int>& sizes,
-                                        const std::vector<ImpactPoint>& points);
+                                        const std::vector<ImpactPoint>& points, int most_sweeps = 20000);
 
 }  // namespace ashlar

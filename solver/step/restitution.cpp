@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
@@ -147,6 +149,12 @@ class ImpactOfBlocks {
 
   void apply() {
     const ImpactResult result = solve_impact(inertia_, sizes_, points_);
+    if (result.residual > impact_accuracy)
+      throw std::runtime_error("the impulses of an impact between " + std::to_string(bodies_.size()) +
+                               " blocks did not converge (velocities change by " +
+                               std::to_string(result.residual) +
+                               " of the fastest in the last sweep); without restitution, or with damping in "
+                               "its place, springs act");
     double lost = 0.0;
     for (const auto& [block, index] : bodies_) {
       const BlockModel& model = run_.blocks()[at(block)];

@@ -28,6 +28,7 @@ namespace ashlar {
 
 /// Applies the impulses of blocks that are about to touch at the start of a step: changes velocities and books the
 /// loss. @return true if there were any
+/// @throws std::runtime_error if the impulses do not converge: nothing has changed then
 bool rebound(const RunContext& run, const std::vector<ContactPair>& pairs);
 
 }  // namespace ashlar

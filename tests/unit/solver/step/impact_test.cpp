@@ -43,6 +43,21 @@ TEST(Impact, AContactAtRestTransmitsTheImpulse) {
   EXPECT_NEAR(result.changes[2][0], 2.0 / 3.0, 1e-12);
 }
 
+TEST(Impact, ARowOfFiveThatTouchIsNoCradle) {
+  // The last four leave as one: 1 = v1 + 4 v2, v2 - v1 = 1.
+  const ImpactResult result =
+      solve_impact({1.0, 1.0, 1.0, 1.0, 1.0}, {1, 1, 1, 1, 1}, row_of({1.0, 0.0, 0.0, 0.0, 0.0}, 1.0));
+  EXPECT_NEAR(1.0 + result.changes[0][0], -0.6, 1e-11);
+  for (const std::size_t k : {1U, 2U, 3U, 4U}) EXPECT_NEAR(result.changes[k][0], 0.4, 1e-11);
+  EXPECT_NEAR(result.work, 0.0, 1e-11);
+}
+
+TEST(Impact, SweepsThatEndTooSoonAreToldByTheResidual) {
+  const std::vector<ImpactPoint> points = row_of({1.0, 0.0, 0.0}, 1.0);
+  EXPECT_LT(solve_impact({1.0, 1.0, 1.0}, {1, 1, 1}, points).residual, 1e-12);
+  EXPECT_GT(solve_impact({1.0, 1.0, 1.0}, {1, 1, 1}, points, 3).residual, impact_accuracy);
+}
+
 TEST(Impact, PointsThatPartHaveNoImpulse) {
   std::vector<ImpactPoint> points = row_of({0.0, 1.0}, 1.0);
   const ImpactResult result = solve_impact({1.0, 1.0}, {1, 1}, points);
