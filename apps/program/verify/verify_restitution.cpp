@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "apps/program/verify/verification_contacts.hpp"
@@ -179,10 +180,43 @@ std::vector<VerificationCheck> oblique_impact(const Placement& placement) {
   return checks;
 }
 
+/// Five cubes in a row, of which the first arrives at v. Where they touch, the impulses of one moment are those of Moreau:
+/// Newton's law holds at the contact that closes, the others do not close, and the last four leave as one: momentum
+/// v = v_1 + 4 v_2 and v_2 - v_1 = v give -3/5 and 2/5 of v. With gaps between them there is one impact after another,
+/// and only the last one leaves, at v.
+std::vector<VerificationCheck> cradle(const Placement& placement) {
+  constexpr double speed = 2.0;
+  const Vector3 along = placement.direction(Vector3::UnitX());
+  std::vector<VerificationCheck> checks;
+  for (const Contact& contact : {stiff, rigid}) {
+    for (const double gap : {0.0, 1e-3}) {
+      ContactScene scene = scene_of(placement, contact, Integrator::average_acceleration, 1e-3, 1.0);
+      scene.settings.gravity.setZero();
+      const auto moved = [&](double x) {
+        return define_block(Polyhedron(make_box({x, -0.1, 1.0}, {x + 0.2, 0.1, 1.2})), {2500, 1e10, 0.2}, 0);
+      };
+      scene.add(moved(-0.25), {{speed, 0, 0}, Vector3::Zero()});
+      for (int k = 0; k < 4; ++k) scene.add(moved(k * (0.2 + gap)));
+      Simulation simulation = scene.build();
+      run_until(simulation, 0.05);
+      const std::array<double, 5> touching = {-0.6, 0.4, 0.4, 0.4, 0.4}, apart = {0.0, 0.0, 0.0, 0.0, 1.0};
+      for (int k = 1; k <= 5; ++k) {
+        const double share = (gap == 0.0 ? touching : apart)[static_cast<std::size_t>(k - 1)];
+        checks.push_back(
+            check_absolute(fmt::format("velocity of cube {}, m/s, {} m apart, {}", k, gap, contact.name),
+                           along.dot(velocity_of(simulation, k)), share * speed, 1e-6));
+      }
+      checks.push_back(check_energy(fmt::format("energy, {} m apart, {}", gap, contact.name), simulation));
+    }
+  }
+  return checks;
+}
+
 constexpr VerificationCase cases[] = {
     {"restitution-heights", "a cube that falls and rebounds twice", restitution_heights},
     {"restitution-none", "a cube that lands and stays", plastic_landing},
     {"restitution-exchange", "two equal cubes that meet in flight", restitution_exchange},
+    {"restitution-cradle", "five cubes in a row, struck by the first", cradle},
     {"restitution-oblique", "a cube that lands in motion along the floor", oblique_impact},
 };
 
