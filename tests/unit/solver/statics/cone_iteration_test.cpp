@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <utility>
 #include <vector>
@@ -26,7 +27,9 @@ struct RandomProgramme {
   std::vector<BodyVelocity> borne;  ///< some that forces within the strengths balance
   std::vector<double> shift;
 
-  RandomProgramme(unsigned seed, int bodies, int points_of_pair) : random_(seed) {
+  /// @param bars true: points with bounds of bars in place of contacts, but for each fifth one
+  RandomProgramme(unsigned seed, int bodies, int points_of_pair, bool bars = false)
+      : bars_(bars), random_(seed) {
     for (int b = 0; b < bodies; ++b) freedom.push_back(b % 4 == 3 ? 3 : 6);
     load.assign(freedom.size(), BodyVelocity::Zero());
     borne = load;
@@ -60,8 +63,11 @@ struct RandomProgramme {
       point.strength = std::array<ConeStrength, 5>{
           ConeStrength{mu, 0, 0}, {mu, c, 0.3 * c / mu}, {mu, c, 9 * c / mu}, {0, c, c}, {0, 0, 0}}[kind];
       // Half of the strength of the point at a random normal force.
+      if (bars_ && kind > 0)
+        point.strength = std::array<ConeStrength, 5>{
+            ConeStrength{}, {0, 0, c, 0}, {0, c, c, 2 * c}, {0, 0, none, 0.5 * c}, {0, c, none, none}}[kind];
       const ConeStrength& s = point.strength;
-      const double normal = std::abs(number());
+      const double normal = std::clamp(std::abs(number()), 0.0, s.compression);
       Vector3d force(normal, number(), number());
       force.tail<2>() *= 0.5 * (s.cohesion + s.friction * normal) / force.tail<2>().norm();
       borne[static_cast<std::size_t>(a)] -= point.first.transpose() * force;
@@ -72,6 +78,8 @@ struct RandomProgramme {
     pairs.push_back({{a, b}, begin, points.size()});
   }
 
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  bool bars_;
   std::mt19937_64 random_;
 };
 
@@ -100,12 +108,14 @@ Lacking lacking(const RandomProgramme& of, const ConeAnswer& answer, std::vector
       if (b >= 0) loads[body(b)] -= point.second.transpose() * p;
       const double opens = y[0] + (shift.empty() ? 0.0 : shift[k]);
       const double slides = s.shear() ? y.tail<2>().norm() : 0.0;
-      most.strength =
-          std::max({most.strength, p.tail<2>().norm() - s.cohesion - s.friction * p[0], -s.tension - p[0]});
-      most.flow = std::max(most.flow, s.friction * slides - opens);
+      most.strength = std::max({most.strength, p.tail<2>().norm() - s.cohesion - s.friction * p[0],
+                                -s.tension - p[0], p[0] - s.compression});
+      if (!s.crushes()) most.flow = std::max(most.flow, s.friction * slides - opens);
+      if (std::isinf(s.tension)) most.flow = std::max(most.flow, opens);
       // N opens + t . y_t is least with t against the sliding and N as small as it may be.
-      const double least_normal =
-          -(s.friction > 0.0 ? std::min(s.tension, s.cohesion / s.friction) : s.tension);
+      double least_normal = -(s.friction > 0.0 ? std::min(s.tension, s.cohesion / s.friction) : s.tension);
+      if (s.crushes() && opens < 0.0) least_normal = s.compression;
+      if (std::isinf(least_normal)) least_normal = p[0];
       const double least = (opens - s.friction * slides) * least_normal - s.cohesion * slides;
       most.work += std::abs(p[0] * opens + p.tail<2>().dot(y.tail<2>()) - least);
     }
@@ -114,6 +124,25 @@ Lacking lacking(const RandomProgramme& of, const ConeAnswer& answer, std::vector
     most.balance =
         std::max(most.balance, (loads[b] - (rest ? answer.velocity[b] : BodyVelocity::Zero())).norm());
   return most;
+}
+
+TEST(ConeIteration, RandomRestWithBarsMeetsAllConditions) {
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    const RandomProgramme of(seed, 8, 5, true);
+    ConeQuestion question;
+    question.load = of.load;
+    const ConeAnswer answer = of.program(1).solve(question);
+    EXPECT_EQ(answer.status, ConeStatus::solved) << seed;
+    const Lacking lacks = lacking(of, answer, question.load, {}, true);
+    double square = 0.0, fastest = 0.0;
+    for (const BodyVelocity& load : of.load) square += load.squaredNorm();
+    for (const BodyVelocity& v : answer.velocity) fastest = std::max(fastest, v.norm());
+    EXPECT_GT(fastest, 0.1) << seed;
+    EXPECT_LT(lacks.balance, 1e-7) << seed;
+    EXPECT_LT(lacks.strength, 1e-7) << seed;
+    EXPECT_LT(lacks.flow, 1e-7) << seed;
+    EXPECT_LT(lacks.work, 1e-7 * square) << seed;
+  }
 }
 
 TEST(ConeIteration, RandomRestMeetsAllConditions) {
