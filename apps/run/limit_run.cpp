@@ -152,7 +152,9 @@ std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simu
 
 bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& model) {
   if (!seeks_factor(scene.analysis) || scene.analysis.method == SceneAnalysis::Method::elastic) return false;
-  return model && (scene.analysis.method == SceneAnalysis::Method::limit || !loses_strength(*model));
+  if (scene.analysis.method == SceneAnalysis::Method::limit) return model.has_value();
+  // Stress of the ground clamps blocks, which limit analysis begins without.
+  return model && !loses_strength(*model) && !scene.initial_stress.given();
 }
 
 void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model,
@@ -170,6 +172,11 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
                       "no block can move (all are fixed or held by supports), one that can is needed");
     return;
   }
+  if (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit &&
+      scene.initial_stress.given())
+    diagnostics.warning(scene.places.key("initial_stress"),
+                        "limit analysis begins without it: blocks that it clamps may move below the factor; "
+                        "analysis.method = \"elastic\" has it");
   if (scene.analysis.type == SceneAnalysis::Type::capacity && !multiplies_loads(*model))
     diagnostics.error(scene.places.value("analysis.capacity.blocks"),
                       "loads to multiply move no block (0 N in all), one that can move a block is needed");

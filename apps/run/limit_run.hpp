@@ -20,7 +20,7 @@ namespace ashlar {
 [[nodiscard]] std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation);
 
 /// True if a search for a factor uses limit analysis: as the scene specifies, or if that is automatic, if no joint of
-/// blocks in contact loses strength permanently. @param model of limit_model
+/// blocks in contact loses strength permanently and there is no stress of the ground. @param model of limit_model
 [[nodiscard]] bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& model);
 
 /// Reports scenes with nothing to find: no block can move, or no load is multiplied.
@@ -44,7 +44,8 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
 /// The simulation's bolts with the forces of a limit state.
 void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation);
 
-/// An array: name, axial_force (N, the largest by its amount, tension positive), shear_force (N) of each bolt with forces.
+/// An array: name, axial_force (N, the largest by its amount, tension positive) and shear_force (N) of each bolt with
+/// forces.
 [[nodiscard]] nlohmann::ordered_json bars_json(const std::vector<BarForce>& forces,
                                                const Simulation& simulation);
 

@@ -331,6 +331,9 @@ SupportMovement support_movement(const PlacedScene& scene, int support, const Mo
   placed.states = scene.states;
   for (const auto& [blocks, history] : scene.histories) placed.pairs[blocks].overlap = history.overlap;
   const RigidModel model = rigid_model(scene.system, placed, scene.end_time, {});
+  const std::vector<Bolt>& bolts = scene.system.bolts();
+  if (std::any_of(bolts.begin(), bolts.end(), [](const Bolt& bolt) { return bolt.installed; }))
+    throw std::invalid_argument("bolts and props do not follow movements of supports");
   if (block_held_in_part(model)) throw std::invalid_argument("supports hold a block in part");
   if (!is_loaded(model)) throw std::invalid_argument("no load acts");
   const SupportWay way(model, support, scene.system.settings().gravity_at(scene.end_time), search.direction);

@@ -109,7 +109,7 @@ struct SupportMovement {
 
 /// @param support fixed block in contact with a moving one, see supports_of
 /// @throws std::invalid_argument if a block is incremental or partly supported, if the support has no load-bearing
-/// contact, or if no load acts
+/// contact, if no load acts, or if a bolt is installed
 [[nodiscard]] SupportMovement support_movement(const PlacedScene& scene, int support,
                                                const MovementSearch& search);
 

@@ -96,6 +96,16 @@ TEST_F(LimitRun, TheMethodFollowsTheJoints) {
   EXPECT_EQ(summary("forced").at("factor_of_safety").at("method"), "limit");
 }
 
+TEST_F(LimitRun, StressOfTheGroundIsForStaticAnalyses) {
+  write_text(scene_, keystone("type = \"factor-of-safety\"\nsafety.upper = 1.5", "friction_angle = 10") +
+                         "[initial_stress]\nstress = [-1e5, 0, 0, 0, 0, 0]\n");
+  static_cast<void>(run("auto"));
+  EXPECT_EQ(summary("auto").at("factor_of_safety").at("method"), "elastic");
+  ASSERT_EQ(run("forced", {"--set", "analysis.method=limit"}), 0) << faults_;
+  EXPECT_EQ(summary("forced").at("factor_of_safety").at("method"), "limit");
+  EXPECT_THAT(faults_, HasSubstr("limit analysis begins without it"));
+}
+
 TEST_F(LimitRun, ScenesWithNothingToFindAreRefused) {
   write_text(scene_, keystone("type = \"factor-of-safety\"", "friction_angle = 10"));
   EXPECT_EQ(run("fixed", {"--set", "block.stone.fixed=true"}), 2);
