@@ -85,6 +85,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> support_cases();
 /// Water and stress in the ground.
 [[nodiscard]] std::span<const VerificationCase> ground_cases();
+/// Waves that leave and enter at boundaries.
+[[nodiscard]] std::span<const VerificationCase> boundary_cases();
 /// Records of earthquakes.
 [[nodiscard]] std::span<const VerificationCase> record_cases();
 /// Bolts and props.
