@@ -16,4 +16,5 @@
 #include "mechanics/contact/tie.hpp"
 #include "mechanics/material/poisson_limit.hpp"
 #include "mechanics/supports/face_selection.hpp"
+#include "mechanics/supports/quiet_faces.hpp"
 #include "mechanics/supports/support_motion.hpp"

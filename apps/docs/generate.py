@@ -21,7 +21,7 @@ import tomllib
 
 DOCS = pathlib.Path(__file__).resolve().parent
 PROJECT = DOCS.parents[1]
-LISTS = ("joint", "material", "block", "masonry", "cut", "load", "bolt", "prop", "water", "measure", "assign", "stage")
+LISTS = ("joint", "material", "block", "masonry", "cut", "load", "bolt", "prop", "water", "boundary", "measure", "assign", "stage")
 MASONRY_KINDS = 4
 # Stands where a key of the program is to be described by hand.
 UNSAID = "TO BE SAID"

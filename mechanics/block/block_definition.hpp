@@ -9,6 +9,7 @@
 #include "mechanics/material/initial_stress.hpp"
 #include "mechanics/material/material.hpp"
 #include "mechanics/supports/loads.hpp"
+#include "mechanics/supports/quiet_faces.hpp"
 #include "mechanics/supports/supports.hpp"
 
 namespace ashlar {
@@ -33,6 +34,8 @@ struct BlockDefinition {
   std::vector<Load> loads;
   /// Stress in the placed block; empty: none. Rigid and fixed blocks have no stress
   StressField initial_stress = nullptr;
+  std::vector<QuietFaces> quiet = {};
+  bool released = false;  ///< quiet faces have dashpots; false: they are held
 
   /// Fixed blocks are total for any value.
   Formulation formulation = Formulation::total;

@@ -54,12 +54,40 @@ BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const Increme
   }
   motion_ = SupportMotion(solid(), basis_, definition_.supports);
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
+  if (quiet()) start_quiet_faces();
+}
+
+void BlockModel::start_quiet_faces() {
+  if (form_ || rigid() || driven())
+    throw std::invalid_argument(
+        "quiet faces need order >= 1, the total formulation and supports of the block at rest");
+  if (!definition_.released) return;
+  dashpots_ = std::make_shared<const Eigen::MatrixXd>(
+      space().restrict(dashpot_matrix(solid(), basis_, material(), definition_.quiet)));
+  for (const QuietFaces& quiet : definition_.quiet)
+    for (const Load& load : quiet.driving)
+      driving_.push_back({load_coefficients(solid(), basis_, load), load.history});
+}
+
+BlockModel BlockModel::with_quiet_faces(bool released, BlockPartsLibrary& library) const {
+  BlockDefinition definition = definition_;
+  definition.released = released;
+  return {std::move(definition), library};
+}
+
+void BlockModel::set_reaction(Eigen::MatrixX3d reaction) {
+  if (!dashpots_ || reaction.rows() != basis_.size())
+    throw std::invalid_argument("a reaction belongs to released quiet faces, and has their block's order");
+  reaction_ = std::move(reaction);
 }
 
 BlockModel BlockModel::with_order(int order) const {
   if (fixed() || form_ || rigid() || order < 1)
     throw std::invalid_argument(
         "only a moving block of the total formulation changes order, and none to rigid");
+  if (dashpots_)
+    throw std::invalid_argument(
+        "the reaction of quiet faces is of one order: change it before motion begins");
   BlockDefinition definition = definition_;
   definition.order = order;
   return BlockModel(std::move(definition));
@@ -119,6 +147,8 @@ Eigen::MatrixX3d BlockModel::load_force(double time) const {
   Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(basis_.size(), 3);
   for (std::size_t k = 0; k < loads_.size(); ++k)
     force += definition_.loads[k].factor * definition_.loads[k].history.at(time) * loads_[k];
+  for (const auto& [wave, history] : driving_) force += history.at(time) * wave;
+  if (reaction_.size() > 0) force += reaction_;
   return force;
 }
 
@@ -139,6 +169,9 @@ Eigen::MatrixX3d BlockModel::prescribed_velocity(const Eigen::MatrixX3d& change,
 
 bool BlockModel::loads_change_between(double start, double end) const {
   if (motion_.changes_between(start, end)) return true;
+  if (std::any_of(driving_.begin(), driving_.end(),
+                  [&](const Driving& wave) { return wave.history.changes_between(start, end); }))
+    return true;
   return std::any_of(definition_.loads.begin(), definition_.loads.end(),
                      [&](const Load& load) { return load.history.changes_between(start, end); });
 }
@@ -162,7 +195,7 @@ Eigen::MatrixX3d BlockModel::rigid_position(const Eigen::MatrixX3d& position) co
 }
 
 Eigen::MatrixX3d BlockModel::unstrained(const Eigen::MatrixX3d& position) const {
-  if (!space().can_turn()) return basis_.identity_map();
+  if (!parts_->turns) return basis_.identity_map();
   const Eigen::Matrix3d gradient = position.transpose() * parts_->mean_gradients;
   return basis_.identity_map() * polar_decomposition(gradient).rotation.transpose();
 }

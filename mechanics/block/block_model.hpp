@@ -43,14 +43,15 @@ struct CarriedBlock;
 class BlockModel {
  public:
   /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
-  /// load_coefficients and IncrementalForm do, for a rigid block that has supports or is incremental, and for initial
-  /// stress in a block that is incremental or of St.-Venant-Kirchhoff elasticity
+  /// load_coefficients and IncrementalForm do, for a rigid block that has supports or is incremental, for initial
+  /// stress in a block that is incremental or of St.-Venant-Kirchhoff elasticity, and for quiet faces of a block that
+  /// is rigid or incremental or has moving supports
   explicit BlockModel(BlockDefinition definition);
   /// The same, with data shared with other blocks made with the library.
   BlockModel(BlockDefinition definition, BlockPartsLibrary& library);
 
   /// The same block of the total formulation with another order, >= 1. @throws std::invalid_argument for a fixed,
-  /// incremental or rigid one
+  /// incremental or rigid one, and for one whose quiet faces are released
   [[nodiscard]] BlockModel with_order(int order) const;
 
   /// Null for blocks of the total formulation.
@@ -67,7 +68,19 @@ class BlockModel {
   [[nodiscard]] const Polyhedron& solid() const { return *definition_.solid; }
   [[nodiscard]] const Material& material() const { return definition_.material; }
   [[nodiscard]] bool fixed() const { return definition_.fixed; }
-  [[nodiscard]] bool supported() const { return !definition_.supports.empty(); }
+  [[nodiscard]] bool supported() const { return !definition_.supports.empty() || holds_quiet_faces(); }
+  /// True if the block has quiet faces (quiet_faces.hpp).
+  [[nodiscard]] bool quiet() const { return !definition_.quiet.empty(); }
+  /// True if they are held: until motion begins.
+  [[nodiscard]] bool holds_quiet_faces() const { return quiet() && !definition_.released; }
+  /// The same block with quiet faces that are held, or have dashpots and no reaction. Only if quiet().
+  [[nodiscard]] BlockModel with_quiet_faces(bool released, BlockPartsLibrary& library) const;
+  /// Z' C Z of the dashpots, (unknowns, unknowns); null: none
+  [[nodiscard]] const Eigen::MatrixXd* dashpots() const { return dashpots_.get(); }
+  /// Constant force of the ground behind released quiet faces, (p, 3), a part of load_force(); empty: none
+  [[nodiscard]] const Eigen::MatrixX3d& reaction() const { return reaction_; }
+  /// @param reaction (p, 3). @throws std::invalid_argument unless quiet faces are released
+  void set_reaction(Eigen::MatrixX3d reaction);
   /// Order of the basis: 1 for rigid blocks.
   [[nodiscard]] int order() const { return basis_.order(); }
   /// True if it does not deform: a moving block of order 0.
@@ -81,7 +94,7 @@ class BlockModel {
   /// Degrees of freedom of the motion: number of its equations.
   [[nodiscard]] int freedom() const { return rigid() ? rigid_freedom : unknowns(); }
   /// True if the frame of linear elasticity turns with the block (theory.md section 4).
-  [[nodiscard]] bool corotational() const { return !form_ && space().can_turn(); }
+  [[nodiscard]] bool corotational() const { return !form_ && parts_->turns; }
   [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
 
   /// Undeformed and at rest.
@@ -97,7 +110,7 @@ class BlockModel {
 
   /// Gravity and loads at a time. @return (p, 3), N m^-3/2
   [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
-  /// Loads without gravity. @return (p, 3)
+  /// Loads, waves and reaction, without gravity. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
   /// Stress of the definition; empty: none, also if the block cannot have any.
   [[nodiscard]] const StressField& initial_stress() const { return definition_.initial_stress; }
@@ -115,7 +128,7 @@ class BlockModel {
   /// @param step s, > 0. @return (p, 3); only if driven
   [[nodiscard]] Eigen::MatrixX3d prescribed_velocity(const Eigen::MatrixX3d& change, double from,
                                                      double step) const;
-  /// True if any load or support may differ between two times.
+  /// True if any load, wave or support may differ between two times.
   [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.
   [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
@@ -162,6 +175,8 @@ class BlockModel {
                                                       const Eigen::MatrixXd& phi) const;
   BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form, CarriedShape carried,
              const BlockPartsLibrary::Found& found);
+  /// Dashpots and waves of released quiet faces.
+  void start_quiet_faces();
 
   BlockDefinition definition_;
   PolynomialBasis basis_;
@@ -171,6 +186,14 @@ class BlockModel {
   std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
   std::shared_ptr<const IncrementalForm> form_;
   CarriedShape carried_;
+  /// Traction of a wave at released quiet faces.
+  struct Driving {
+    Eigen::MatrixX3d force;  ///< (p, 3) at factor 1
+    History history;
+  };
+  std::vector<Driving> driving_;
+  std::shared_ptr<const Eigen::MatrixXd> dashpots_;  ///< null unless quiet faces are released
+  Eigen::MatrixX3d reaction_;
 };
 
 /// The next step of an incremental block.

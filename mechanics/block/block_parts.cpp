@@ -66,9 +66,17 @@ void add_supports(Key& key, const Polyhedron& solid, const std::vector<BlockSupp
   }
 }
 
+/// Supports, and quiet faces that are held.
+std::vector<BlockSupport> supports_of(const BlockDefinition& definition) {
+  std::vector<BlockSupport> supports = definition.supports;
+  if (!definition.released)
+    for (const QuietFaces& quiet : definition.quiet) supports.push_back({quiet.where, quiet.components});
+  return supports;
+}
+
 /// Converts supports of the placed solid to those of the shape before translation.
 std::vector<BlockSupport> supports_of_shape(const BlockDefinition& definition) {
-  std::vector<BlockSupport> supports = definition.supports;
+  std::vector<BlockSupport> supports = supports_of(definition);
   const Vector3 back = definition.shape->mesh().points.front() - definition.solid->mesh().points.front();
   for (BlockSupport& support : supports) {
     if (auto* point = std::get_if<Vector3>(&support.where)) {
@@ -94,12 +102,13 @@ std::shared_ptr<const StVenantKirchhoff> large_strains(const Polyhedron& solid, 
 
 BlockParts::BlockParts(const Polyhedron& solid, const PolynomialBasis& basis,
                        const BlockDefinition& definition, const std::vector<BlockSupport>& supports)
-    : space(basis.size()) {
+    : space(basis.size()), turns(true) {
   if (definition.fixed) return;
   space = AdmissibleSpace(solid, basis, supports);
+  turns = space.can_turn() && definition.quiet.empty();
   mean_gradients = ashlar::mean_gradients(basis);
   stiffness = elastic_stiffness(basis, definition.material);
-  if (!space.can_turn() || definition.formulation == Formulation::incremental)
+  if (!turns || definition.formulation == Formulation::incremental)
     reduced_stiffness = space.restrict(stiffness);
   if (definition.order > 0 && definition.material.elasticity == Elasticity::st_venant_kirchhoff)
     large = large_strains(solid, basis, definition.material);
@@ -114,11 +123,12 @@ BlockPartsLibrary::Found BlockPartsLibrary::find(const BlockDefinition& definiti
   auto basis = bases_.find(key.bytes());
   if (basis == bases_.end()) basis = bases_.emplace(key.bytes(), PolynomialBasis(solid, order)).first;
   const std::vector<BlockSupport> supports =
-      definition.shape ? supports_of_shape(definition) : definition.supports;
+      definition.shape ? supports_of_shape(definition) : supports_of(definition);
   key.add(definition.fixed);
   key.add(static_cast<int>(definition.formulation));
   if (!definition.fixed) {
     key.add(definition.order == 0);
+    key.add(definition.quiet.empty());
     add_material(key, definition.material);
     add_supports(key, solid, supports);
   }

@@ -25,9 +25,10 @@ struct BlockParts {
              const std::vector<BlockSupport>& supports);
 
   AdmissibleSpace space;
+  bool turns;  ///< the frame of linear elasticity turns with the block
   Eigen::MatrixX3d mean_gradients;
   Eigen::MatrixXd stiffness;  ///< K, (3p, 3p), for rigid blocks that of order 1; empty for fixed blocks
-  Eigen::MatrixXd reduced_stiffness;               ///< Z' K Z of a block that cannot turn
+  Eigen::MatrixXd reduced_stiffness;               ///< Z' K Z of a block whose frame does not turn
   std::shared_ptr<const StVenantKirchhoff> large;  ///< null for linear elasticity
 };
 

@@ -45,8 +45,7 @@ Eigen::MatrixX3d load_coefficients(const Polyhedron& solid, const PolynomialBasi
   }
   const auto faces = faces_at(solid, load.where);
   if (faces.empty()) throw std::invalid_argument("no face of the block lies in the load's plane");
-  constexpr int degree_of_field = 4;
-  const SurfaceRule rule = surface_rule(solid, faces, basis.order() + (load.field ? degree_of_field : 0));
+  const SurfaceRule rule = surface_rule(solid, faces, basis.order() + (load.field ? load.field_degree : 0));
   const Eigen::Map<const Eigen::VectorXd> weights(rule.weights.data(),
                                                   static_cast<Eigen::Index>(rule.weights.size()));
   if (load.field) {

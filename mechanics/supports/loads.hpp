@@ -34,10 +34,11 @@ struct Load {
   bool traction = true;  ///< on a plane: true Pa, false total N
   Vector3 vector = Vector3::Zero();
   History history;
-  /// A traction that varies over the faces, Pa, in place of `vector`, by places (m). Polynomials of degree 4 are
-  /// integrated exactly
+  /// A traction that varies over the faces, Pa, in place of `vector`, by places (m). Polynomials of degree
+  /// `field_degree` are integrated exactly
   std::function<Vector3(const Vector3&)> field = nullptr;
   std::vector<PressedPart> parts = {};  ///< not empty: in place of `where` and `vector`
+  int field_degree = 4;                 ///< >= 0
   double factor = 1.0;                  ///< in addition to the history; set by BlockModel::set_load_factor
 };
 

@@ -36,7 +36,12 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
     state_.spin_debts.push_back(0.0);
     state_.sleep.rests.emplace_back();
     if (block.fixed()) continue;
-    state_.states.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
+    const auto velocity = [&](const BlockModel& model) {
+      return model.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
+    };
+    BlockPartsLibrary library;
+    state_.states.back().velocity =
+        block.holds_quiet_faces() ? velocity(block.with_quiet_faces(true, library)) : velocity(block);
   }
   state_.ledger.start(system_, state_.states);
 }

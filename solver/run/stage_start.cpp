@@ -5,6 +5,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/step/accepted_bolts.hpp"
+#include "solver/step/quiet_release.hpp"
 
 namespace ashlar {
 namespace {
@@ -33,6 +34,9 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
     run.system.carry_on(k, run.blocks()[at(k)].with_shape(end.carried.at(k)));
     run.contacts.finder().start_step(k);
   }
+  std::map<int, Eigen::MatrixX3d> reactions = end.reactions;
+  std::erase_if(reactions, [&](const auto& one) { return !stays(one.first); });
+  set_reactions(run, reactions);
   for (const auto& [place, factor] : end.load_factors)
     if (at(place[1]) < run.blocks()[at(place[0])].loads().size())
       run.system.set_load_factor(place[0], place[1], factor);

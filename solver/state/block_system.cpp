@@ -45,6 +45,8 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     : blocks_(std::move(blocks)), absent_(std::move(absent)), law_(std::move(law)), settings_(settings) {
   absent_.resize(blocks_.size(), false);
   let_go();
+  for (int k = 0; k < count(); ++k)
+    if (moving_[at(k)] && blocks_[at(k)].quiet()) quiet_.push_back(k);
   // The surface of an incremental block consists of its sub-faces.
   if (any_incremental()) settings_.curved_surface = false;
   const bool any_rigid =
@@ -150,6 +152,17 @@ std::map<std::array<int, 2>, double> BlockSystem::load_factors() const {
       if (loads[at(load)].factor != 1.0) factors[{block, load}] = loads[at(load)].factor;
   }
   return factors;
+}
+
+std::map<int, Eigen::MatrixX3d> BlockSystem::reactions() const {
+  std::map<int, Eigen::MatrixX3d> reactions;
+  for (const int k : quiet_)
+    if (!blocks_[at(k)].holds_quiet_faces()) reactions.emplace(k, blocks_[at(k)].reaction());
+  return reactions;
+}
+
+void BlockSystem::set_reaction(int block, Eigen::MatrixX3d reaction) {
+  blocks_.at(at(block)).set_reaction(std::move(reaction));
 }
 
 void BlockSystem::hold(const std::vector<int>& blocks) {

@@ -70,13 +70,19 @@ class BlockSystem {
   /// blocks are not checked.
   [[nodiscard]] const Eigen::MatrixXd* asked_gradients(int block) const;
   [[nodiscard]] bool any_incremental() const;
+  /// Blocks with quiet faces, held or released; absent ones are left out.
+  [[nodiscard]] const std::vector<int>& quiet() const { return quiet_; }
+  /// Forces behind released quiet faces, by block.
+  [[nodiscard]] std::map<int, Eigen::MatrixX3d> reactions() const;
+  /// @throws std::invalid_argument as BlockModel::set_reaction
+  void set_reaction(int block, Eigen::MatrixX3d reaction);
   /// block_size of the smaller of two blocks, m.
   [[nodiscard]] double smaller_size(const std::array<int, 2>& blocks) const;
   [[nodiscard]] int unknowns() const;
   /// By block: true if its supports, or those of blocks tied to it, prevent all rigid motions.
   [[nodiscard]] std::vector<bool> held_without_contacts() const;
 
-  /// Replaces the model of a block by one of the same solid and another order.
+  /// Replaces the model of a block by one of the same solid, of another order or with quiet faces released or held.
   void replace(int block, BlockModel model);
   /// Replaces the model of an incremental block by that of its next step.
   void carry_on(int block, BlockModel model);
@@ -94,6 +100,7 @@ class BlockSystem {
   std::vector<BlockModel> blocks_;
   std::vector<bool> absent_;
   std::vector<bool> moving_;
+  std::vector<int> quiet_;  ///< increasing
   LawOfPair law_;
   SimulationSettings settings_;
   std::vector<TiedBlocks> ties_;

@@ -20,8 +20,8 @@ struct Ledger {
   double contact = 0.0;  ///< stored in normal and shear springs
   double friction =
       0.0;               ///< dissipated by sliding and by fracture of bonds so far, less the work of dilation
-  double damping = 0.0;  ///< dissipated by damping of mass, of stiffness and of joints, and by impacts with a
-                         ///< coefficient of restitution so far
+  double damping = 0.0;  ///< dissipated by damping of mass, stiffness, joints and quiet faces, and by impacts
+                         ///< with a coefficient of restitution so far
   double applied = 0.0;  ///< work of loads, moving supports, and gravity with a history, so far
   double numerical = 0.0;           ///< dissipated by the time integrator so far
   double redetection_gained = 0.0;  ///< gained by springs of re-detected contacts so far, >= 0

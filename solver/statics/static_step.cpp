@@ -14,6 +14,7 @@
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/accepted_step.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/quiet_release.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
@@ -240,6 +241,7 @@ class StaticIteration {
 
 StaticStatus static_step(const RunContext& run, double end_time, double far) {
   if (run.system.any_incremental()) throw std::logic_error("incremental blocks have no static analysis");
+  hold_quiet_faces(run);
   StaticState& statics = run.state.statics;
   if (statics.moving) return StaticStatus::moving;
   if (statics.balanced && run.state.reached(run.settings().time_step, end_time))

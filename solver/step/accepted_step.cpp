@@ -45,6 +45,8 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   ledger.damping_took(damping);
   const Eigen::MatrixX3d internal = body.internal_force(scheme);
   ledger.damping_took(body.motion().cwiseProduct(internal - body.elastic.force).sum());
+  const Eigen::VectorXd on_dashpots = body.dashpot_force(scheme);
+  if (on_dashpots.size() > 0) ledger.damping_took(body.change.dot(on_dashpots));
   Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
   if (block.rigid()) {
     // Momenta are components along these fields, which are kept.
@@ -69,7 +71,8 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   state.position += body.motion();
   // Prevents rounding errors from accumulating as strain.
   if (block.rigid()) state.position = block.rigid_position(state.position);
-  const Eigen::VectorXd smooth = body.external_force - block.space().restrict(internal);
+  Eigen::VectorXd smooth = body.external_force - block.space().restrict(internal);
+  if (on_dashpots.size() > 0) smooth -= on_dashpots;
   const double work = density * scheme.inertia * body.change.dot(body.change - body.free_change) +
                       (1.0 - scheme.force_weight) * body.change.dot(smooth) - damping;
   const double dissipated = work - kinetic_gain;
@@ -294,7 +297,6 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
     tally_friction(acted, laws, scheme.step, run.state.extremes.sliding_friction);
   if (pair.dilates() && !scheme.is_static())
     tally_slip(pair, response, ya, yb, run.state.extremes.dilating_slip);
-
   history.work += work + stopped.work;
   run.state.records.push_back(
       {pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps), history.work});
@@ -328,8 +330,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
   Bulges bulges(run);
   double held_by_all = 0.0;
   for (const SleepingIsland& island : run.state.sleep.islands) held_by_all += island.held;
-  double friction = 0.0;
-  double damped = 0.0;
+  double friction = 0.0, damped = 0.0;
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const IslandResult& result = problem.results[i];
     report.iterations = std::max(report.iterations, result.iterations);
@@ -354,7 +355,6 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       else if (run.settings().augmented)
         take_for_multipliers(run, pair, -pair.spring_work(response, ya, yb) - slid);
       count_states(response.points, report);
-
       remember(run, {pair, response, result.laws[n], ya, yb, stopped[index]}, scheme, work,
                bulges.of(pair.a()) + bulges.of(pair.b()));
     }

@@ -9,6 +9,7 @@
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/position_projection.hpp"
+#include "solver/step/quiet_release.hpp"
 #include "solver/step/restitution.hpp"
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/snapshot.hpp"
@@ -147,6 +148,7 @@ class DynamicStep {
 }  // namespace
 
 StepStatus take_step(const RunContext& run, double end_time) {
+  release_quiet_faces(run);
   double step = run.state.next_step;
   const double left = end_time - run.state.time();
   if (left < step - time_rounding(run.settings().time_step, end_time)) step = left;

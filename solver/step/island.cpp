@@ -116,6 +116,11 @@ Eigen::MatrixX3d BodyStep::internal_force(const TimeScheme& scheme) const {
   return elastic.force + scheme.stiffness_share * (elastic.force - start_force * frame.transpose());
 }
 
+Eigen::VectorXd BodyStep::dashpot_force(const TimeScheme& scheme) const {
+  if (dashpots == nullptr) return {};
+  return *dashpots * (scheme.dashpot_velocity.change * change + carried_velocity);
+}
+
 std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs,
                                  const std::vector<StepBolt>& bolts) {
   UnionFind meeting(moving.size());

@@ -38,6 +38,9 @@ struct BodyStep {
   /// For damping by stiffness: elastic force at the start of the step in the frame that turns with the block, (p, 3)
   Eigen::MatrixX3d start_force;
 
+  const Eigen::MatrixXd* dashpots = nullptr;  ///< of quiet faces in motion; null: none
+  Eigen::VectorXd carried_velocity;           ///< velocity at which they act if nothing changes
+
   /// For a rigid block: velocity fields at the middle of its motion, (unknowns, 6); with TimeScheme::impulsive at its
   /// position. See follow_rigid()
   Eigen::MatrixXd fields;
@@ -58,6 +61,8 @@ struct BodyStep {
   void note_start_force();
   /// `elastic.force` and the force of damping by stiffness, (p, 3). To be called before the state is updated
   [[nodiscard]] Eigen::MatrixX3d internal_force(const TimeScheme& scheme) const;
+  /// Force of the block on its dashpots; empty: there are none.
+  [[nodiscard]] Eigen::VectorXd dashpot_force(const TimeScheme& scheme) const;
 };
 
 /// A bolt's forces over a step and their work, J.

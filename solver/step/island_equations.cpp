@@ -155,6 +155,8 @@ Residual IslandProblem::residual() const {
     add_force(result, place, scheme_.force_weight * body.external_force);
     add_force(result, place,
               -scheme_.force_weight * body.model->space().restrict(body.internal_force(scheme_)));
+    if (body.dashpots != nullptr)
+      add_force(result, place, -scheme_.force_weight * body.dashpot_force(scheme_));
     add_force(result, place,
               -body.model->material().density * scheme_.inertia * (body.change - body.free_change));
   });

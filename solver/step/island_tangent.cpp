@@ -37,6 +37,10 @@ double IslandTangent::weight_of_blocks() const {
   return scheme.force_weight * scheme.end_share * (1.0 + scheme.stiffness_share);
 }
 
+double IslandTangent::weight_of_dashpots() const {
+  return problem_.scheme().force_weight * problem_.scheme().dashpot_velocity.change;
+}
+
 void IslandTangent::assemble(bool positive) {
   const TimeScheme& scheme = problem_.scheme();
   BlockMatrix& matrix = solver_.matrix;
@@ -48,6 +52,8 @@ void IslandTangent::assemble(bool positive) {
           static_cast<int>(k),
           weight_of_blocks() * body.model->tangent(problem_.taken_at(body), body.elastic, positive));
     }
+    if (body.dashpots != nullptr)
+      matrix.add_diagonal(static_cast<int>(k), weight_of_dashpots() * *body.dashpots);
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme.inertia);
   }
   std::vector<PairTangent> tangents(problem_.pairs());
@@ -129,6 +135,8 @@ void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force)
       force.segment(offset, of_body.size()) +=
           weight_of_blocks() * body.model->tangent_times(body.elastic.rotation, of_body);
     }
+    if (body.dashpots != nullptr)
+      force.segment(offset, of_body.size()) += weight_of_dashpots() * (*body.dashpots * of_body);
   }
 }
 

@@ -1,12 +1,12 @@
 // The linear system of one island: the tangent of its equations (island_equations.hpp) at the last responses, and the
 // change of the guess that balances the linearised equations (theory.md section 10).
 //
-//   T = d rho inertia I + w s (1 + k) Z' R K R' Z + sum over pairs of C' t C
+//   T = d rho inertia I + w s (1 + k) Z' R K R' Z + w b Z' B Z + sum over pairs of C' t C
 //
-// with t the stiffness of each contact point, 3 x 3. The dependence of friction on the normal force makes t
-// unsymmetric: GMRES includes it, the factor is of the symmetric part. With a factor of an earlier step as
-// preconditioner (notes/old_factors.md) GMRES needs a few products T x only. T is not assembled where these cost
-// less.
+// with B the dashpots of quiet faces, b the share of the change in their velocity, and t the stiffness of each contact
+// point, 3 x 3. The dependence of friction on the normal force makes t unsymmetric: GMRES includes it, the factor is
+// of the symmetric part. With a factor of an earlier step as preconditioner (notes/old_factors.md) GMRES needs a few
+// products T x only. T is not assembled where these cost less.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,6 +49,8 @@ class IslandTangent {
   [[nodiscard]] bool products_pay() const;
   /// w s (1 + k), weight of the stiffness of blocks.
   [[nodiscard]] double weight_of_blocks() const;
+  /// w b, weight of the dashpots of quiet faces.
+  [[nodiscard]] double weight_of_dashpots() const;
   /// Adds the forces of the blocks' inertia and stiffness due to a change. @param x (equations)
   void add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const;
   /// Products of pairs that have stiffnesses. @param stiffnesses of the points of a pair, without columns: none

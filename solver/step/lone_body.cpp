@@ -51,7 +51,7 @@ void LoneBodyFactors::drop_unused() {
 std::optional<IslandResult> solve_lone_body(BodyStep& body, const TimeScheme& scheme,
                                             const SimulationSettings& settings, LoneBodyFactors& factors) {
   const BlockModel& block = *body.model;
-  if (!shares_factors(block)) return std::nullopt;
+  if (body.dashpots != nullptr || !shares_factors(block)) return std::nullopt;
   const double mass = scheme.inertia * block.material().density;
   const double tolerance =
       scheme.is_static() ? settings.statics.residual_tolerance : settings.iteration.residual_tolerance;

@@ -5,6 +5,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/step/block_changes.hpp"
+#include "solver/step/quiet_release.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
 namespace ashlar {
@@ -28,6 +29,9 @@ std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapsho
   }
   for (const auto& [place, factor] : snapshot.load_factors)
     fits = fits && at(place[0]) < states.size() && at(place[1]) < run.blocks()[at(place[0])].loads().size();
+  for (const auto& [k, reaction] : snapshot.reactions)
+    fits = fits && k >= 0 && k < run.system.count() && run.blocks()[at(k)].quiet() &&
+           reaction.rows() == states[at(k)].position.rows();
   if (!fits) throw std::invalid_argument("the snapshot has other blocks");
   return orders;
 }
@@ -43,8 +47,12 @@ SimulationCounts counts_of(const RunState& state, const StepContacts& contacts, 
 
 SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state, const StepContacts& contacts,
                                const FactorCache& factors) {
-  SimulationSnapshot result{
-      state, {}, contacts.finder().state(), factors.islands.kept(), system.load_factors()};
+  SimulationSnapshot result{state,
+                            {},
+                            contacts.finder().state(),
+                            factors.islands.kept(),
+                            system.load_factors(),
+                            system.reactions()};
   result.run.log.counts = counts_of(state, contacts, factors);
   for (int k = 0; k < system.count(); ++k) {
     const BlockModel& block = system.blocks()[at(k)];
@@ -64,6 +72,7 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
   FactorCache factors(run.settings().linear_method);
   factors.islands.restore(snapshot.factors);
   for (const auto& [k, order] : orders) replace_model(run, k, run.blocks()[at(k)].with_order(order));
+  set_reactions(run, snapshot.reactions);
   for (const auto& [place, factor] : run.system.load_factors())
     run.system.set_load_factor(place[0], place[1], 1.0);
   for (const auto& [place, factor] : snapshot.load_factors)

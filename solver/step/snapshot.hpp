@@ -17,6 +17,7 @@ struct SimulationSnapshot {
   FinderState finder;
   std::vector<KeptFactor> factors;
   std::map<std::array<int, 2>, double> load_factors;  ///< BlockSystem::load_factors
+  std::map<int, Eigen::MatrixX3d> reactions;          ///< BlockSystem::reactions
 };
 
 /// Work done and skipped by a run so far.

@@ -28,8 +28,14 @@ std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& 
       body.roundoff_force *= 1.0 + 2.0 * scheme.stiffness_share;
     }
     const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
-    body.free_change = block.space().restrict(scheme.free_change(
-        still, state.states[k].velocity, state.accelerations.empty() ? still : state.accelerations[k]));
+    const Eigen::MatrixX3d& acceleration = state.accelerations.empty() ? still : state.accelerations[k];
+    body.free_change =
+        block.space().restrict(scheme.free_change(still, state.states[k].velocity, acceleration));
+    if (block.dashpots() != nullptr && !scheme.is_static()) {
+      body.dashpots = block.dashpots();
+      body.carried_velocity =
+          block.space().restrict(scheme.dashpot_velocity(still, state.states[k].velocity, acceleration));
+    }
     body.external_force =
         block.space().restrict(external_force(system, state.clock, static_cast<int>(k), scheme));
     body.prescribed =
@@ -73,19 +79,8 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   // From the last trial.
   for (IslandResult& result : problem.results) swap_followed(result);
   problem.results.clear();
-  const SimulationSettings& settings = system.settings();
-  problem.bolts = step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
-  problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
-  validate(problem.islands, system.moving(), problem.pairs);
-  problem.bodies = prepare_bodies(system, state, scheme);
-  for (ContactPair& pair : problem.pairs) {
-    pair.begin_step(system.blocks()[at(pair.a())], system.blocks()[at(pair.b())],
-                    {problem.bodies[at(pair.a())].prescribed, problem.bodies[at(pair.b())].prescribed,
-                     scheme.is_static() ? 0.0 : scheme.step, settings.augmented});
-  }
-  for (StepBolt& bolt : problem.bolts)
-    bolt.prescribe([&](int block) { return problem.bodies[at(block)].prescribed; });
-  problem.results = solve_islands(problem, scheme, settings, factors);
+  pose_step(system, state, scheme, problem);
+  problem.results = solve_islands(problem, scheme, system.settings(), factors);
   SimulationCounts& counts = state.log.counts;
   IslandStatus status = IslandStatus::converged;
   for (IslandResult& result : problem.results) {
@@ -95,6 +90,21 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
     if (status == IslandStatus::converged) status = result.status;
   }
   return status;
+}
+
+void pose_step(const BlockSystem& system, const RunState& state, const TimeScheme& scheme,
+               StepProblem& problem) {
+  problem.bolts = step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
+  problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
+  validate(problem.islands, system.moving(), problem.pairs);
+  problem.bodies = prepare_bodies(system, state, scheme);
+  for (ContactPair& pair : problem.pairs) {
+    pair.begin_step(system.blocks()[at(pair.a())], system.blocks()[at(pair.b())],
+                    {problem.bodies[at(pair.a())].prescribed, problem.bodies[at(pair.b())].prescribed,
+                     scheme.is_static() ? 0.0 : scheme.step, system.settings().augmented});
+  }
+  for (StepBolt& bolt : problem.bolts)
+    bolt.prescribe([&](int block) { return problem.bodies[at(block)].prescribed; });
 }
 
 Eigen::MatrixX3d external_force(const BlockSystem& system, const StepClock& clock, int block,
@@ -128,7 +138,10 @@ std::vector<Eigen::MatrixX3d> smooth_accelerations(const BlockSystem& system, co
     const Eigen::MatrixX3d force =
         block.external_force(system.settings().gravity_at(state.time()), state.time()) -
         block.elastic(state.states[k].position).force;
-    result.back() = block.space().expand(block.space().restrict(force)) / block.material().density -
+    Eigen::VectorXd smooth = block.space().restrict(force);
+    if (block.dashpots() != nullptr)
+      smooth -= *block.dashpots() * block.space().restrict(state.states[k].velocity);
+    result.back() = block.space().expand(smooth) / block.material().density -
                     system.settings().mass_damping * state.states[k].velocity;
   }
   return result;

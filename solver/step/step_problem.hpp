@@ -32,6 +32,10 @@ struct StepProblem {
 [[nodiscard]] IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme,
                                  FactorCache& factors, StepProblem& problem);
 
+/// Finds islands and bodies of a problem whose pairs are given: the first part of solve().
+void pose_step(const BlockSystem& system, const RunState& state, const TimeScheme& scheme,
+               StepProblem& problem);
+
 /// Gravity and loads of a block at the time where the integrator evaluates them, (p, 3).
 [[nodiscard]] Eigen::MatrixX3d external_force(const BlockSystem& system, const StepClock& clock, int block,
                                               const TimeScheme& scheme);

@@ -30,6 +30,7 @@ TimeScheme newmark_scheme(const NewmarkParameters& p, double step, double dampin
   scheme.damped_velocity = {scheme.end_share * scheme.end_velocity.change,
                             scheme.end_share * scheme.end_velocity.velocity + p.alpha_f,
                             scheme.end_share * scheme.end_velocity.acceleration};
+  scheme.dashpot_velocity = {1.0 / step, 0.0, 0.0};
   const double bare = p.gamma / (p.beta * step * step);
   const double weighted = scheme.force_weight * damping;
   scheme.inertia = bare + weighted * scheme.damped_velocity.change;
@@ -48,7 +49,7 @@ TimeScheme average_acceleration_scheme(double step, double damping) {
   scheme.end_share = 0.5;
   scheme.mean_contacts = true;
   scheme.end_velocity = {2.0 / step, -1.0, 0.0};
-  scheme.damped_velocity = {1.0 / step, 0.0, 0.0};
+  scheme.damped_velocity = scheme.dashpot_velocity = {1.0 / step, 0.0, 0.0};
   scheme.inertia = 2.0 / (step * step) + damping / step;
   scheme.free_change.velocity = 2.0 / step / scheme.inertia;
   return scheme;
@@ -60,8 +61,11 @@ namespace {
 
 TimeScheme undamped_by_stiffness(const SimulationSettings& settings, double step) {
   switch (settings.integrator) {
-    case Integrator::dda:
-      return newmark_scheme({0.5, 1.0, 0.0, 0.0}, step, settings.mass_damping);
+    case Integrator::dda: {
+      TimeScheme scheme = newmark_scheme({0.5, 1.0, 0.0, 0.0}, step, settings.mass_damping);
+      scheme.dashpot_velocity = scheme.end_velocity;
+      return scheme;
+    }
     case Integrator::average_acceleration:
       return average_acceleration_scheme(step, settings.mass_damping);
     case Integrator::generalized_alpha:

@@ -23,6 +23,9 @@
 // with F_start at the start of the step and R the rotation of the block since then: beta K times the mean velocity of
 // deformation up to that time. It does not resist rotation. Its error is of first order in dt with generalized-alpha
 // and dda, of second order with average-acceleration.
+// Dashpots of quiet faces add -C v_d to F_external - F_elastic; they are no part of m and D_free. v_d is v' with dda, the
+// mean velocity D/dt with the others: with generalized-alpha v_f of a block at rest on contacts is not zero, as A is
+// that of smooth forces and contacts, and a that of smooth forces alone.
 // average-acceleration: D = dt (v + v')/2, M (v' - v)/dt = F - alpha M D/dt.
 // Static: rho m D is the inertia of a block released from rest, in a step of length sqrt(2/m).
 #pragma once
@@ -65,6 +68,7 @@ struct TimeScheme {
   StepCombination free_change;       ///< D_free, without D
   StepCombination end_velocity;      ///< v'
   StepCombination damped_velocity;   ///< v_f: the damping force is -alpha M v_f
+  StepCombination dashpot_velocity;  ///< v_d: the force of dashpots is -C v_d
   double acceleration_memory = 0.0;  ///< alpha_m
 
   [[nodiscard]] bool is_static() const { return kind == StepKind::statics; }

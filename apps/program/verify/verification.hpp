@@ -87,6 +87,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> ground_cases();
 /// Tunnels and wedges in their roofs.
 [[nodiscard]] std::span<const VerificationCase> tunnel_cases();
+/// Waves that leave and enter at boundaries.
+[[nodiscard]] std::span<const VerificationCase> boundary_cases();
 /// Records of earthquakes.
 [[nodiscard]] std::span<const VerificationCase> record_cases();
 /// Bolts and props.

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "apps/program/verify/sliding_wedge.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_scenes.hpp"
 #include "apps/run/factor_analysis.hpp"
-#include "apps/scene/build/build_simulation.hpp"
 
 namespace ashlar {
 namespace {
@@ -27,19 +26,6 @@ density = 2600
 young_modulus = 1e10
 poisson_ratio = 0.2
 )";
-
-/// The simulation of a scene. @throws std::runtime_error with its faults
-Simulation simulation_of(const std::string& text, const TrialFactors& factors = {}) {
-  Diagnostics diagnostics;
-  const auto loaded = load_scene_text(text, "ground.toml", {}, diagnostics);
-  if (loaded) {
-    if (auto built = build_simulation(*loaded, 1, diagnostics, nullptr, factors))
-      return std::move(built->simulation);
-  }
-  std::string faults;
-  for (const Diagnostic& fault : diagnostics.sorted()) faults += fault.message + "; ";
-  throw std::runtime_error(faults);
-}
 
 VerificationCheck check_safety(const std::string& what, const std::string& scene, double reference) {
   const FactorBracket bracket = find_factor({}, [&](double factor) {

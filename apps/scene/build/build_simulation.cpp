@@ -10,10 +10,12 @@
 #include <numbers>
 #include <type_traits>
 
+#include "apps/scene/build/block_material.hpp"
 #include "apps/scene/build/bolts_of_scene.hpp"
 #include "apps/scene/build/initial_state.hpp"
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
+#include "apps/scene/build/quiet_boundaries.hpp"
 #include "apps/scene/build/stress_field.hpp"
 #include "apps/scene/build/tied_joints.hpp"
 #include "apps/scene/build/water_loads.hpp"
@@ -36,7 +38,7 @@ BlockPlace place_of(const Where& where) {
 
 /// @param load_factor of the block's loads
 BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, double load_factor,
-                             const WaterLoads& water) {
+                             const WaterLoads& water, const QuietBoundaries& boundaries) {
   const Scene& scene = loaded.scene;
   const SceneBlock& block = scene.block[index];
   BlockDefinition definition;
@@ -53,12 +55,7 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, doubl
       if (measure.block == block.name && measure.point) definition.followed.push_back(*measure.point);
     }
   }
-  if (const SceneMaterial* material = find_material(scene, block.material)) {
-    definition.material = {material->density, material->young_modulus, material->poisson_ratio,
-                           material->elasticity == SceneMaterial::Elasticity::linear
-                               ? Elasticity::linear
-                               : Elasticity::st_venant_kirchhoff};
-  }
+  definition.material = material_of(scene, index);
   for (const SceneFix& fix : block.fix) {
     definition.supports.push_back({place_of(fix.where), fix.components, support_history(fix)});
   }
@@ -77,6 +74,7 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, doubl
       };
   }
   if (!block.fixed) definition.initial_stress = initial_stress_of(scene, index, loaded.stage);
+  definition.quiet = boundaries.of_block(index);
   // After those of the scene, whose numbers stay.
   if (Load pressure = water.of_block(index); !pressure.parts.empty())
     definition.loads.push_back(std::move(pressure));
@@ -95,18 +93,24 @@ Integrator integrator_of(SceneAnalysis::Integrator integrator) {
   return Integrator::dda;
 }
 
+/// Settings of a step in time.
+SimulationSettings time_settings(const SceneAnalysis& analysis) {
+  SimulationSettings settings;
+  settings.integrator = integrator_of(analysis.integrator);
+  settings.spectral_radius = analysis.spectral_radius;
+  settings.mass_damping = analysis.mass_damping;
+  settings.stiffness_damping = analysis.stiffness_damping;
+  settings.time_step = analysis.time_step;
+  return settings;
+}
+
 SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>& blocks, int threads,
                                std::vector<AutomaticChoice>& choices) {
   const AutomaticRatios ratios;
-  SimulationSettings settings;
-  settings.integrator = integrator_of(scene.analysis.integrator);
+  SimulationSettings settings = time_settings(scene.analysis);
   if (scene.analysis.solver == SceneAnalysis::Solver::cg)
     settings.linear_method = LinearMethod::conjugate_gradients;
-  settings.spectral_radius = scene.analysis.spectral_radius;
-  settings.mass_damping = scene.analysis.mass_damping;
-  settings.stiffness_damping = scene.analysis.stiffness_damping;
   settings.rest.sleeps = scene.analysis.sleeping;
-  settings.time_step = scene.analysis.time_step;
   settings.gravity = scene.analysis.gravity;
   for (const auto& [time, value] : scene.analysis.gravity_history) {
     settings.gravity_history.times.push_back(time);
@@ -324,6 +328,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   const std::vector<bool> multiplied = multiplied_blocks(scene);
   if (preparation != nullptr && !scene.water.empty()) preparation->phase("pressure of water");
   const auto water = std::make_shared<const WaterLoads>(loaded, diagnostics);
+  const QuietBoundaries boundaries(scene, loaded.solids, time_settings(scene.analysis), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
@@ -331,7 +336,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
       preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
       const double load_factor = multiplied[k] ? factors.load : 1.0;
-      blocks.emplace_back(define_block(loaded, k, load_factor, *water), parts);
+      blocks.emplace_back(define_block(loaded, k, load_factor, *water, boundaries), parts);
     } catch (const OrderTooHigh& error) {
       diagnostics.error(
           scene.places.value(fmt::format("block.{}.order", k)),

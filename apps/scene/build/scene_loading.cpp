@@ -7,6 +7,7 @@
 
 #include "apps/scene/build/scene_reader.hpp"
 #include "apps/scene/check/base_motion.hpp"
+#include "apps/scene/check/boundary_checks.hpp"
 #include "apps/scene/check/idle_keys.hpp"
 #include "apps/scene/check/implausible_keys.hpp"
 #include "apps/scene/check/initial_overlap.hpp"
@@ -101,6 +102,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   for_each_stage(loaded.scene, [&](const Scene& stage) {
     check_placement(stage, solids, diagnostics);
     check_limits(stage, solids, diagnostics);
+    check_boundaries(stage, solids, diagnostics);
   });
   check_supports(loaded.scene, solids, diagnostics);
   warn_of_mesh_units(loaded.scene, solids, diagnostics);
@@ -112,6 +114,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   loaded.cost = estimate_cost(loaded.scene, &solids);
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
   warn_of_keys_idle_in_all(loaded.scene, diagnostics);
+  warn_of_boundaries(loaded.scene, diagnostics);
   for_each_stage(loaded.scene, [&](const Scene& stage) {
     warn_of_implausible_keys(stage, diagnostics);
     warn_of_jumping_supports(stage, diagnostics);

@@ -15,6 +15,7 @@
 #include "apps/scene/read/assignments.hpp"
 #include "apps/scene/read/block_reader.hpp"
 #include "apps/scene/read/bolt_reader.hpp"
+#include "apps/scene/read/boundary_reader.hpp"
 #include "apps/scene/read/cut_reader.hpp"
 #include "apps/scene/read/history_reader.hpp"
 #include "apps/scene/read/initial_stress_reader.hpp"
@@ -194,6 +195,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
   const bool stressed = top.given("initial_stress");
   TomlTableReader initial_stress = top.table_or_empty("initial_stress");
   scene.initial_stress = read_initial_stress(initial_stress, stressed);
+  scene.boundary = top.read_tables("boundary", read_boundary);
   read_output(top.table_or_empty("output"), scene.output);
   if (top.given("include"))
     top.error_at_key("include", "include cannot be set (include), files are read before anything is set");

@@ -285,6 +285,10 @@ level = { point = [0, 0, 0], normal = [0, 0, 1] }
 unit_weight = 9810
 [initial_stress]
 k0 = 0.5
+[[boundary]]
+plane = { point = [0, 0, 0], normal = [0, 0, -1] }
+kind = "quiet"
+wave = [[0, 0, 0, 0]]
 [[measure]]
 name = "force"
 bolt = "bolt"

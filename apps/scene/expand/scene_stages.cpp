@@ -45,6 +45,14 @@ void stay(SceneFix& fix) {
   fix.file.reset();
 }
 
+/// Waves act in the first dynamic stage.
+void end_waves(Scene& scene) {
+  for (SceneBoundary& boundary : scene.boundary) {
+    boundary.wave.clear();
+    boundary.file.reset();
+  }
+}
+
 /// The scenes of all stages, each derived from the one before.
 class StageScenes {
  public:
@@ -75,6 +83,7 @@ class StageScenes {
   /// Histories of [[block]] end with the first stage of the block; those of a stage end with it.
   void end_histories(std::size_t ended) {
     const double end_time = whole_.stage[ended].analysis.end_time;
+    if (!is_static(whole_.stage[ended].analysis)) end_waves(scene_);
     for (std::size_t k = 0; k < scene_.block.size(); ++k) {
       if (was_there_[k] || scene_.absent[k]) continue;
       was_there_[k] = true;

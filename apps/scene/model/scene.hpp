@@ -15,6 +15,7 @@
 #include "apps/scene/model/scene_analysis.hpp"
 #include "apps/scene/model/scene_block.hpp"
 #include "apps/scene/model/scene_bolt.hpp"
+#include "apps/scene/model/scene_boundary.hpp"
 #include "apps/scene/model/scene_contact.hpp"
 #include "apps/scene/model/scene_initial_stress.hpp"
 #include "apps/scene/model/scene_measure.hpp"
@@ -134,6 +135,7 @@ struct Scene {
   std::vector<SceneMeasure> measure;    ///< in file order
   std::vector<SceneWater> water;        ///< in file order
   SceneInitialStress initial_stress;
+  std::vector<SceneBoundary> boundary;  ///< in file order
   SceneOutput output;
   /// In file order; empty: a single analysis. Otherwise `analysis` is that of the first one.
   std::vector<SceneStage> stage;

@@ -56,6 +56,9 @@ inline constexpr ChoiceNames<SceneCut::Spacing, 4> spacing_names = {
 inline constexpr ChoiceNames<SceneBolt::Anchorage, 2> anchorage_names = {
     {{"grouted", SceneBolt::Anchorage::grouted}, {"ends", SceneBolt::Anchorage::ends}}};
 
+inline constexpr ChoiceNames<SceneBoundary::Kind, 2> boundary_kind_names = {
+    {{"quiet", SceneBoundary::Kind::quiet}, {"free-field", SceneBoundary::Kind::free_field}}};
+
 inline constexpr ChoiceNames<SceneMaterial::Elasticity, 2> elasticity_names = {
     {{"linear", SceneMaterial::Elasticity::linear},
      {"st-venant-kirchhoff", SceneMaterial::Elasticity::st_venant_kirchhoff}}};

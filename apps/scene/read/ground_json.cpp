@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "apps/scene/model/scene_names.hpp"
 #include "apps/scene/read/analysis_json.hpp"
 
 namespace ashlar {
@@ -38,6 +39,21 @@ Json to_json(const SceneWater& water) {
           {"unit_weight", water.unit_weight},
           {"joints", water.joints},
           {"faces", water.faces}};
+}
+
+Json to_json(const SceneBoundary& boundary) {
+  Json json = {
+      {"plane", {{"point", to_json(boundary.plane.point)}, {"normal", to_json(boundary.plane.normal)}}},
+      {"kind", name_of(boundary_kind_names, boundary.kind)}};
+  if (boundary.file) {
+    json["wave"] = to_json(*boundary.file);
+    if (boundary.direction) json["direction"] = to_json(*boundary.direction);
+  } else if (!boundary.wave.empty()) {
+    json["wave"] = Json::array();
+    for (const auto& [time, value] : boundary.wave)
+      json["wave"].push_back({time, value.x(), value.y(), value.z()});
+  }
+  return json;
 }
 
 }  // namespace ashlar

@@ -1,8 +1,9 @@
-// [[water]], [initial_stress] and fields as JSON.
+// [[water]], [initial_stress], [[boundary]] and fields as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
+#include "apps/scene/model/scene_boundary.hpp"
 #include "apps/scene/model/scene_initial_stress.hpp"
 #include "apps/scene/model/scene_water.hpp"
 
@@ -12,5 +13,6 @@ namespace ashlar {
 [[nodiscard]] nlohmann::ordered_json to_json(const SceneField& field);
 [[nodiscard]] nlohmann::ordered_json to_json(const SceneInitialStress& initial);
 [[nodiscard]] nlohmann::ordered_json to_json(const SceneWater& water);
+[[nodiscard]] nlohmann::ordered_json to_json(const SceneBoundary& boundary);
 
 }  // namespace ashlar

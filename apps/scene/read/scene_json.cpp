@@ -364,6 +364,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
   if (!scene.measure.empty()) json["measure"] = list_to_json(scene.measure);
   add_list(json, "water", scene.water);
   if (scene.initial_stress.given()) json["initial_stress"] = to_json(scene.initial_stress);
+  add_list(json, "boundary", scene.boundary);
   json["output"] = to_json(scene.output);
   add_list(json, "stage", scene.stage);
   return json;

@@ -1,0 +1,24 @@
+// Quiet faces of blocks (quiet_faces.hpp) between rest and motion: held as by supports until the first step of a
+// motion, released from then on, and held again by a static analysis.
+//
+// On release the reaction of the supports becomes a constant force. It balances the forces of elasticity, gravity,
+// loads, contacts, ties and bolts of the present state on all motions of the block that its held faces excluded.
+// From equilibrium nothing moves. Waves and dashpots are no part of it: a state that moves is not slowed down.
+#pragma once
+
+#include <map>
+
+#include "solver/step/run_context.hpp"
+
+namespace ashlar {
+
+/// Releases quiet faces that are held. No effect without any.
+void release_quiet_faces(const RunContext& run);
+/// Holds quiet faces that are released at their present places; their reactions are dropped.
+void hold_quiet_faces(const RunContext& run);
+
+/// Releases the quiet faces of these blocks, with these reactions, and holds those of all others.
+/// @param reactions (p, 3) by block, of blocks with quiet faces
+void set_reactions(const RunContext& run, const std::map<int, Eigen::MatrixX3d>& reactions);
+
+}  // namespace ashlar
