@@ -9,7 +9,8 @@
 // Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
 // the contacts and errors of their forces are not in it.
 //
-// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order, and those with bolts.
+// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order, and those with bolts or quiet
+// faces.
 #pragma once
 
 #include <vector>
