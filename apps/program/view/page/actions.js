@@ -1,4 +1,4 @@
-// What acts on the blocks besides contact: loads, supports, bolts and water.
+// Actions on the blocks besides contact: loads, supports, bolts and water.
 //
 // A load is an arrow whose tip is at the centre of its faces, or at its point; all arrows of a run have one scale. A
 // support has strokes out of its faces: inclined ones where all components are held, upright ones where some are free;
