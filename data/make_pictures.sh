@@ -46,5 +46,5 @@ while read -r scene picture options; do
   folder=$results/$scene.out
   [[ -f $folder/summary.json ]] || "$program" run "$data/scenes/$scene.toml" --out "$folder" --force
   # shellcheck disable=SC2086  # options are words
-  "$program" picture "$folder" --size 640x420 $options -o "$data/pictures/$picture.png"
+  "$program" picture "$folder" --size 640x420 --sharpness 2 $options -o "$data/pictures/$picture.png"
 done < <(pictures)

@@ -15,7 +15,8 @@ class PictureTest(unittest.TestCase):
         return done, Picture(path.read_bytes()) if path.exists() else None
 
     def test_picture_command(self):
-        done, picture = self.picture("falling", "--size", "320x200", "--frame", "0", "--color", "block", "--from=0,-1,0")
+        done, picture = self.picture("falling", "--size", "320x200", "--frame", "0", "--color", "block", "--from=0,-1,0",
+                                     "--without", "supports,marks")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("frame 0 of 0 to 56", done.stdout)
         self.assertEqual((picture.width, picture.height), (320, 200))
@@ -25,6 +26,10 @@ class PictureTest(unittest.TestCase):
         upper, lower = widths[:60], widths[60:]
         self.assertGreater(max(upper), 10)
         self.assertGreater(max(lower), 2 * max(upper))
+
+    def test_a_sharp_picture_has_more_pixels(self):
+        done, picture = self.picture("slope", "--size", "320x200", "--sharpness", "2")
+        self.assertEqual((done.returncode, picture.width, picture.height), (0, 640, 400), done.stderr)
 
     def test_picture_from_nearer(self):
         view = ("falling", "--size", "320x200", "--frame", "0", "--color", "block", "--from=0,-1,0")

@@ -119,6 +119,7 @@ std::string wishes(const PictureOptions& options, const std::string& frames) {
   std::string text =
       fmt::format("picture&{}&size={}&from={}&color={}&zoom={}&scale={}&theme={}", frames, options.size,
                   options.from, options.color, options.zoom, options.scale, parts.dark ? "dark" : "light");
+  if (options.sharpness != 1) text += fmt::format("&sharpness={}", options.sharpness);
   if (parts.contacts != "auto") text += "&contacts=" + parts.contacts;
   if (parts.no_arrows) text += "&arrows=none";
   if (parts.force_chain) text += "&chain=yes";
@@ -312,6 +313,11 @@ void declare_parts(CLI::App& command, PictureParts& parts) {
 
 void declare_look(CLI::App& command, PictureOptions& options) {
   command.add_option("--size", options.size, "Pixels (default: " + options.size + ")")->type_name("WxH");
+  command
+      .add_option("--sharpness", options.sharpness,
+                  "Pixels of the picture for each of --size, for sharp screens and print (default: 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4));
   command
       .add_option("--from", options.from,
                   "Direction to the eye, or front, right, top, iso ... (default: " + options.from + ")")

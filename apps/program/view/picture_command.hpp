@@ -35,6 +35,7 @@ struct PictureOptions {
   std::filesystem::path folder;      ///< result folder
   std::optional<std::size_t> frame;  ///< index, 0 the first; empty: the last
   std::string size = "1200x800";     ///< pixels, WIDTHxHEIGHT, 16 to 8192 each
+  int sharpness = 1;                 ///< 1 to 4: times as many pixels each way, letters and lines likewise
   std::string from =
       "0.55,-1,0.45";  ///< x,y,z: direction from the blocks to the eye, z is up; or the name of a view
   std::optional<std::string> at;  ///< x,y,z: point of view, m; empty: the centre of all blocks

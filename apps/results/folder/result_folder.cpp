@@ -91,7 +91,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
-      supports_(drawn_supports(scene, simulation.blocks())),
+      actions_(drawn_actions(scene, simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
@@ -117,7 +117,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
-      supports_(drawn_supports(scene, simulation.blocks())),
+      actions_(drawn_actions(scene, simulation.blocks())),
       history_(HistoryWriter::resume(folder_ / "history.csv",
                                      history_columns(measures_, !scene.stage.empty()),
                                      state.progress.last_row_step)),
@@ -228,7 +228,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   add(contacts_, "contacts", contact_frame(simulation));
   add(joints_, "joints", joint_frame(simulation, joint_surfaces_));
   if (bolts_) add(*bolts_, "bolts", bolt_frame(simulation));
-  if (loads_) add(*loads_, "loads", load_frame(simulation, supports_, progress_.stage));
+  if (loads_) add(*loads_, "loads", load_frame(simulation, actions_, progress_.stage));
   // After a failure none of them remains.
   std::vector<PvdWriter*> added;
   try {

@@ -107,7 +107,7 @@ class ResultFolder {
   std::vector<Measure> measures_;
   DrawnBlocks drawn_;
   std::vector<SubFaceSurface> joint_surfaces_;
-  std::vector<DrawnSupport> supports_;
+  DrawnActions actions_;
   HistoryWriter history_;
   PvdWriter blocks_;
   std::optional<PvdWriter> surfaces_;  ///< if blocks_ has volumes: their surfaces, for the page

@@ -1,6 +1,7 @@
 #include "apps/results/frames/load_frames.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/scene/expand/scene_stages.hpp"
 #include "geometry/index.hpp"
@@ -64,16 +65,55 @@ Vector3 place_of(const Simulation& simulation, int block, const Vector3& point) 
   return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).place;
 }
 
-void add_loads(const Simulation& simulation, int block, UnstructuredGrid& grid, CellFields& fields) {
-  const BlockModel& model = simulation.blocks()[at(block)];
-  for (const Load& load : model.loads()) {
-    const double factor = load.factor * load.history.at(simulation.time());
-    if (!load.parts.empty() || factor == 0.0) continue;
-    const Resultant resultant = resultant_of(model.solid(), load);
-    if (resultant.force.isZero(0.0)) continue;
-    grid.add_cell(VtkCellType::vertex, std::array{static_cast<int>(grid.points.size())});
-    grid.points.push_back(place_of(simulation, block, resultant.place));
-    fields.add(factor * resultant.force, 0, block);
+/// A load of a state.
+struct ActingLoad {
+  int block;
+  bool moving;
+  double factor;
+  Vector3 whole;  ///< N, at factor 1
+  Vector3 place;  ///< m
+};
+
+std::vector<ActingLoad> acting_loads(const Simulation& simulation, const DrawnActions& actions) {
+  std::vector<ActingLoad> acting;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    const int number = static_cast<int>(k);
+    if (block.incremental() != nullptr || block.fixed() || !simulation.system().present(number)) continue;
+    for (std::size_t n = 0; n < block.loads().size(); ++n) {
+      const Load& load = block.loads()[n];
+      const double factor = load.factor * load.history.at(simulation.time());
+      if (!load.parts.empty() || factor == 0.0) continue;
+      const Resultant resultant = resultant_of(block.solid(), load);
+      if (resultant.force.isZero(0.0)) continue;
+      const bool moving = n < actions.moving[k].size() && actions.moving[k][n];
+      acting.push_back(
+          {number, moving, factor, resultant.force, place_of(simulation, number, resultant.place)});
+    }
+  }
+  return acting;
+}
+
+/// Joins the two shares of each load that is between two points of its path: of equal forces, the nearest two whose
+/// shares are one load.
+void join_shares(std::vector<ActingLoad>& loads) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (!loads[i].moving || !(loads[i].factor < 1.0)) continue;
+    std::size_t other = loads.size();
+    for (std::size_t j = i + 1; j < loads.size(); ++j) {
+      if (!loads[j].moving || loads[j].whole != loads[i].whole ||
+          std::abs(loads[i].factor + loads[j].factor - 1.0) > rounding)
+        continue;
+      if (other == loads.size() ||
+          (loads[j].place - loads[i].place).norm() < (loads[other].place - loads[i].place).norm())
+        other = j;
+    }
+    if (other == loads.size()) continue;
+    const ActingLoad &a = loads[i], &b = loads[other];
+    const Vector3 place = (a.factor * a.place + b.factor * b.place) / (a.factor + b.factor);
+    loads[i] = {a.factor < b.factor ? b.block : a.block, true, 1.0, a.whole, place};
+    loads.erase(loads.begin() + static_cast<std::ptrdiff_t>(other));
   }
 }
 
@@ -97,18 +137,20 @@ void add_support(const Simulation& simulation, const DrawnSupport& support, Unst
 
 }  // namespace
 
-std::vector<DrawnSupport> drawn_supports(const Scene& scene, const std::vector<BlockModel>& blocks) {
-  std::vector<DrawnSupport> supports;
+DrawnActions drawn_actions(const Scene& scene, const std::vector<BlockModel>& blocks) {
+  DrawnActions actions;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
+    actions.moving.emplace_back();
+    for (const SceneLoad& load : scene.block[k].load) actions.moving.back().push_back(load.of_path);
     if (blocks[k].fixed() || blocks[k].incremental() != nullptr) continue;
     for (const SceneFix& fix : scene.block[k].fix)
-      supports.push_back(support_of(fix, k, 0, blocks[k].solid()));
+      actions.supports.push_back(support_of(fix, k, 0, blocks[k].solid()));
     for (std::size_t s = 0; s < scene.stage.size(); ++s)
       for (const SceneStage::Fix& entry : scene.stage[s].fix)
         if (means_block(scene, entry.blocks, k))
-          supports.push_back(support_of(entry.fix, k, static_cast<int>(s) + 1, blocks[k].solid()));
+          actions.supports.push_back(support_of(entry.fix, k, static_cast<int>(s) + 1, blocks[k].solid()));
   }
-  return supports;
+  return actions;
 }
 
 bool has_loads_or_supports(const Scene& scene) {
@@ -117,16 +159,17 @@ bool has_loads_or_supports(const Scene& scene) {
          std::any_of(scene.stage.begin(), scene.stage.end(), has_any);
 }
 
-UnstructuredGrid load_frame(const Simulation& simulation, const std::vector<DrawnSupport>& supports,
-                            int stage) {
+UnstructuredGrid load_frame(const Simulation& simulation, const DrawnActions& actions, int stage) {
   UnstructuredGrid grid;
   CellFields fields;
-  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
-    const BlockModel& block = simulation.blocks()[k];
-    if (block.incremental() == nullptr && !block.fixed() && simulation.system().present(static_cast<int>(k)))
-      add_loads(simulation, static_cast<int>(k), grid, fields);
+  std::vector<ActingLoad> loads = acting_loads(simulation, actions);
+  join_shares(loads);
+  for (const ActingLoad& load : loads) {
+    grid.add_cell(VtkCellType::vertex, std::array{static_cast<int>(grid.points.size())});
+    grid.points.push_back(load.place);
+    fields.add(load.factor * load.whole, 0, load.block);
   }
-  for (const DrawnSupport& support : supports)
+  for (const DrawnSupport& support : actions.supports)
     if (support.stage <= stage && simulation.system().present(support.block))
       add_support(simulation, support, grid, fields);
   grid.cell_data.push_back({"force", 3, {"x", "y", "z"}, std::move(fields.force)});

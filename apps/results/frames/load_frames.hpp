@@ -20,22 +20,27 @@ struct DrawnSupport {
   Vector3 point;                                  ///< m, reference coordinates
 };
 
-/// Supports of the blocks of a scene and its stages, without those of the incremental formulation.
+/// Loads and supports of a scene that its frames draw.
+struct DrawnActions {
+  std::vector<DrawnSupport> supports;
+  std::vector<std::vector<bool>> moving;  ///< by block and load: true for a point of the path of a [[load]]
+};
+/// Without supports of blocks of the incremental formulation.
 /// @param scene the whole one. @param blocks of the simulation
-[[nodiscard]] std::vector<DrawnSupport> drawn_supports(const Scene& scene,
-                                                       const std::vector<BlockModel>& blocks);
+[[nodiscard]] DrawnActions drawn_actions(const Scene& scene, const std::vector<BlockModel>& blocks);
 
 /// True if a scene, or a stage of it, has loads or supports.
 [[nodiscard]] bool has_loads_or_supports(const Scene& scene);
 
-/// Cells: a vertex for each load that is not zero, at the centre of its faces, then triangles or a vertex for each
+/// Cells: a vertex for each load that is not zero, at the centre of its faces, a moving one where it stands between two
+/// points of its path, then triangles or a vertex for each
 /// support, at their present places. Blocks of the incremental formulation and water have none.
 /// Cell data:
 ///   force      N, resultant of the load; zero of supports
 ///   held       of supports: 1 for x, 2 for y, 4 for z, summed; 0 of loads
 ///   block      number of the block
 /// @param stage 1-based number of the present stage; 0: none
-[[nodiscard]] UnstructuredGrid load_frame(const Simulation& simulation,
-                                          const std::vector<DrawnSupport>& supports, int stage);
+[[nodiscard]] UnstructuredGrid load_frame(const Simulation& simulation, const DrawnActions& actions,
+                                          int stage);
 
 }  // namespace ashlar

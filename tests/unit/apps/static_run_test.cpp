@@ -17,6 +17,7 @@ namespace ashlar {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -199,6 +200,31 @@ TEST_F(StaticRun, NeedsNoTimesWithConstantLoads) {
   write_text(scene_, scene);
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
+}
+
+// Two cubes of equal mass on a slope whose tangent is 0.5, with a friction of 0.3: both go down by
+// g (sin - 0.3 cos) = 9.81 (0.5 - 0.3) / sqrt(1.25) m/s^2. The component along y is a rounding error.
+TEST_F(StaticRun, CountsWhatMoves) {
+  write_text(scene_, R"(analysis = { type = "static" }
+contact = { friction_angle = "= atan(0.3) / deg" }
+material = [{ name = "stone", density = 2000, young_modulus = 1e10, poisson_ratio = 0.2 }]
+[[block]]
+name = "slope"
+fixed = true
+box = { min = [-9, -4, -1], max = [9, 4, 0] }
+rotate = { axis = [0, -1, 0], angle = "= atan(0.5) / deg" }
+[[block]]
+name = "stone"
+material = "stone"
+box = { min = [-4, -1, 0], max = [-3, 0, 1] }
+rotate = { axis = [0, -1, 0], angle = "= atan(0.5) / deg" }
+array = { count = [2], step = [[4, 0, 2]] }
+)");
+  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string()}), exit_status::done)
+      << faults_;
+  EXPECT_THAT(faults_, HasSubstr("no equilibrium: 2 of 2 blocks move: stone.1, stone.2; block stone."));
+  EXPECT_THAT(faults_,
+              ContainsRegex("fastest, acceleration \\[-1\\.5[67][0-9]*, 0, -0\\.78[0-9]*\\] m/s\\^2"));
 }
 
 TEST_F(StaticRun, NamesWhatMoves) {

@@ -1,4 +1,4 @@
-// What acts on the blocks besides contact: loads, supports, bolts and water.
+// Actions on the blocks besides contact: loads, supports, bolts and water.
 //
 // A load is an arrow whose tip is at the centre of its faces, or at its point; all arrows of a run have one scale. A
 // support has strokes out of its faces: inclined ones where all components are held, upright ones where some are free;
@@ -85,6 +85,15 @@ function gridPoints([a, b, c], normal, spacing) {
   return {points, axes};
 }
 
+const normalOfCorners = ([a, b, c]) => b.clone().sub(a).cross(c.clone().sub(a)).normalize();
+
+/// A base that is held above and below, so that it moves as a whole, shows the supports below only.
+function withoutHeldTops(supports) {
+  const facing = (support, sign) => support.corners.length === 3 && sign * normalOfCorners(support.corners).z > 0.7;
+  const below = new Set(supports.filter((support) => facing(support, -1)).map(({block}) => block));
+  return supports.filter((support) => !(below.has(support.block) && facing(support, 1)));
+}
+
 /// Distance of strokes: no more of them than MOST_STROKES.
 function strokeSpacing(triangles) {
   const area = triangles.reduce((sum, {corners: [a, b, c]}) =>
@@ -95,7 +104,7 @@ function strokeSpacing(triangles) {
 function placeSupports(frame, enlarge) {
   const strokes = {held: [], roller: []}, cones = {held: [], roller: []};
   const shown = current.supports ? frame.supports.filter(({block, corners}) => !current.hidden.has(block) && isKept(corners[0])) : [];
-  const moved = shown.map((support) => (enlarge ? {...support,
+  const moved = withoutHeldTops(shown).map((support) => (enlarge ? {...support,
     corners: support.corners.map((corner) => enlarge(corner, support.block, support.block))} : support));
   const spacing = strokeSpacing(moved.filter(({corners}) => corners.length === 3));
   const reach = sceneRadius / 40;
@@ -106,8 +115,7 @@ function placeSupports(frame, enlarge) {
       cones[kind].push({from: corners[0].clone().sub(along), along, width: 2 * reach});
       continue;
     }
-    const [a, b, c] = corners;
-    const normal = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
+    const normal = normalOfCorners(corners);
     const {points, axes} = gridPoints(corners, normal, spacing);
     const away = normal.clone();
     if (kind === "held") away.add(axes[0]).add(axes[1].clone().multiplyScalar(0.5)).normalize();

@@ -58,6 +58,7 @@ function drawMarks(context) {
   drawLegend(context, currentFrame(), frameSize.legend);
   drawLoadLabels(context);
   if (!current.marks) return;
-  drawAxes(context, frameSize.marks);
+  // A low picture has no room beside the model.
+  if (frameSize.height >= 300) drawAxes(context, frameSize.marks);
   drawScaleBar(context, frameSize.marks);
 }

@@ -30,7 +30,8 @@ function makePicture(wishes) {
   const fault = faultOf(wishes);
   if (fault) return leaveText("fault", fault);
   const [width, height] = wishes.get("size").split("x").map(Number);
-  renderer.setPixelRatio(1);
+  sharpness.full = Number(wishes.get("sharpness") || 1);
+  renderer.setPixelRatio(sharpness.full);
   renderer.setSize(width, height, false);
   setLineResolution(width, height);
   setFrame(framing(width, height, {heading: headingOfPicture(height), player: 12}));
@@ -67,9 +68,10 @@ function drawHeading(context, width, heading) {
 function drawnPicture(width, height) {
   show();
   const picture = document.createElement("canvas");
-  Object.assign(picture, {width, height});
+  Object.assign(picture, {width: width * sharpness.full, height: height * sharpness.full});
   const context = picture.getContext("2d");
   context.drawImage(element("canvas"), 0, 0);
+  context.setTransform(sharpness.full, 0, 0, sharpness.full, 0, 0);
   drawMarks(context);
   drawHeading(context, width, headingOfPicture(height));
   return picture.toDataURL("image/png").split(",")[1];

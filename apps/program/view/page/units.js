@@ -3,7 +3,7 @@
 /// Engineers' units by SI unit, with the size from which each is used.
 const ENGINEERING = {
   "m": [["mm", 1e-3, 0], ["m", 1, 1]],
-  "N": [["N", 1, 0], ["kN", 1e3, 10], ["MN", 1e6, 1e7]],
+  "N": [["N", 1, 0], ["kN", 1e3, 100], ["MN", 1e6, 1e7]],
   "Pa": [["Pa", 1, 0], ["kPa", 1e3, 100], ["MPa", 1e6, 1e5], ["GPa", 1e9, 1e10]],
   "J": [["J", 1, 0], ["kJ", 1e3, 1e4], ["MJ", 1e6, 1e7]],
 };

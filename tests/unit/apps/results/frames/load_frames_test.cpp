@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "apps/results/frames/grid_arrays.hpp"
 #include "unit/apps/results/ended_run.hpp"
 
@@ -29,7 +31,7 @@ load = [{ plane = { point = [0, 0, 1], normal = [0, 0, 1] }, traction = [0, 0, -
   const Scene& scene = run.run().whole();
   const Simulation& simulation = run.run().simulation();
   ASSERT_TRUE(has_loads_or_supports(scene));
-  const UnstructuredGrid grid = load_frame(simulation, drawn_supports(scene, simulation.blocks()), 0);
+  const UnstructuredGrid grid = load_frame(simulation, drawn_actions(scene, simulation.blocks()), 0);
   EXPECT_NO_THROW(validate(grid));
   // Two loads, then two triangles for each supported face.
   EXPECT_THAT(required_values<std::int32_t>(grid.cell_data, "held", 1), ElementsAre(0, 0, 7, 7, 4, 4));
@@ -41,6 +43,28 @@ load = [{ plane = { point = [0, 0, 1], normal = [0, 0, 1] }, traction = [0, 0, -
   EXPECT_NEAR((grid.points[1] - Vector3(4, 1, 1)).norm(), 0.0, 1e-6);
   for (std::size_t k = 2; k < 8; ++k) EXPECT_NEAR(grid.points[k].x(), 0.0, 1e-9);
   for (std::size_t k = 8; k < 14; ++k) EXPECT_NEAR(grid.points[k].x(), 4.0, 1e-6);
+}
+
+// A load goes 2 m in a second, in steps of 1 m: after a quarter of it half of it is at each of the first two points.
+TEST(LoadFrames, AMovingLoadIsOneArrow) {
+  const EndedRun run(R"(
+analysis = { end_time = 0.25, time_step = 0.05, gravity = [0, 0, 0] }
+material = [{ name = "stone", density = 2000, young_modulus = 1e12, poisson_ratio = 0 }]
+load = [{ force = [0, 0, -10], path = [[0, 1, 0.5, 2], [1, 3, 0.5, 2]], spacing = 1 }]
+[[block]]
+name = "deck"
+material = "stone"
+box = { min = [0, 0, 0], max = [4, 1, 1] }
+fix = [{ plane = { point = [0, 0, 0], normal = [0, 0, 1] } }]
+)");
+  const Simulation& simulation = run.run().simulation();
+  const UnstructuredGrid grid =
+      load_frame(simulation, drawn_actions(run.run().whole(), simulation.blocks()), 0);
+  const auto& held = required_values<std::int32_t>(grid.cell_data, "held", 1);
+  EXPECT_EQ(std::count(held.begin(), held.end(), 0), 1);
+  EXPECT_NEAR((grid.points[0] - Vector3(1.5, 0.5, 1)).norm(), 0.0, 1e-6);
+  const auto& force = required_values<double>(grid.cell_data, "force", 3);
+  EXPECT_NEAR((Vector3(force[0], force[1], force[2]) - Vector3(0, 0, -10)).norm(), 0.0, 1e-12);
 }
 
 }  // namespace
