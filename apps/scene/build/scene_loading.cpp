@@ -26,9 +26,9 @@ namespace ashlar {
 namespace {
 
 /// Warns of keys of [analysis] without effect in every stage.
-void warn_of_keys_idle_in_all(const Scene& whole, Diagnostics& diagnostics) {
+void warn_of_keys_idle_in_all(const ExpandedScene& whole, Diagnostics& diagnostics) {
   std::optional<std::vector<Diagnostic>> idle;
-  for_each_stage(whole, [&](const Scene& stage) {
+  for_each_stage(whole, [&](const ExpandedScene& stage) {
     if (idle && idle->empty()) return;
     Diagnostics found;
     warn_of_idle_keys(stage, found);
@@ -45,12 +45,12 @@ void warn_of_keys_idle_in_all(const Scene& whole, Diagnostics& diagnostics) {
 
 /// Blocks present together in several stages are checked in the first of them.
 /// @return pairs that may overlap, each once
-std::vector<KnownOverlap> check_overlaps(const Scene& whole,
+std::vector<KnownOverlap> check_overlaps(const ExpandedScene& whole,
                                          const std::vector<std::optional<Polyhedron>>& solids,
                                          Diagnostics& diagnostics) {
   std::optional<std::vector<bool>> looked_at;
   std::map<std::array<int, 2>, KnownOverlap> known;
-  for_each_stage(whole, [&](const Scene& stage) {
+  for_each_stage(whole, [&](const ExpandedScene& stage) {
     if (looked_at == stage.absent) return;
     looked_at = stage.absent;
     for (const KnownOverlap& overlap : check_initial_overlap(stage, solids, diagnostics))
@@ -62,7 +62,31 @@ std::vector<KnownOverlap> check_overlaps(const Scene& whole,
   return result;
 }
 
-/// Checks and builds a scene that was read.
+/// Expands a scene that was read: cuts, blocks by place, assignments by name. @param of_blocks faults of names of blocks
+/// @return empty after a fault that leaves nothing to check
+std::optional<ExpandedScene> expanded(Scene scene, Diagnostics& diagnostics, Diagnostics& of_blocks,
+                                      Preparation* preparation) {
+  check_cuts(scene, diagnostics);
+  if (!scene.cut.empty()) {
+    // Names of pieces are known after the cuts, which need a valid scene.
+    if (!diagnostics.good() || !check_cost(scene, estimate_cost(scene), diagnostics)) return std::nullopt;
+    cut_scene(scene, diagnostics, preparation);
+    if (!diagnostics.good()) return std::nullopt;
+  }
+  if (has_regions(scene)) {
+    if (!diagnostics.good()) return std::nullopt;
+    choose_blocks_inside(scene, of_blocks, preparation);
+    if (!diagnostics.good()) return std::nullopt;
+  }
+  apply_later_assignments(scene, of_blocks);
+  if (!scene.cut.empty() && !diagnostics.good()) return std::nullopt;
+  check_stages(scene, of_blocks);
+  // Statements of stages about absent blocks have no meaning further on.
+  if (!scene.stage.empty() && !diagnostics.good()) return std::nullopt;
+  return ExpandedScene(std::move(scene));
+}
+
+/// Expands, checks and builds a scene that was read.
 std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Preparation* preparation,
                                   LoadPurpose purpose) {
   const auto phase = [&](const char* words) {
@@ -71,27 +95,12 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   // Faults of names of blocks.
   Diagnostics of_names;
   Diagnostics& of_blocks = purpose == LoadPurpose::blocks ? of_names : diagnostics;
-  LoadedScene loaded{std::move(scene), {}, {}, {}, {}, 0};
-  check_cuts(loaded.scene, diagnostics);
-  if (!loaded.scene.cut.empty()) {
-    // Names of pieces are known after the cuts, which need a valid scene.
-    if (!diagnostics.good() || !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
-      return std::nullopt;
-    cut_scene(loaded.scene, diagnostics, preparation);
-    if (!diagnostics.good()) return std::nullopt;
-  }
-  if (has_regions(loaded.scene)) {
-    if (!diagnostics.good()) return std::nullopt;
-    choose_blocks_inside(loaded.scene, of_blocks, preparation);
-    if (!diagnostics.good()) return std::nullopt;
-  }
-  apply_later_assignments(loaded.scene, of_blocks);
-  if (!loaded.scene.cut.empty() && !diagnostics.good()) return std::nullopt;
-  check_stages(loaded.scene, of_blocks);
-  // Statements of stages about absent blocks have no meaning further on.
-  if (!loaded.scene.stage.empty() && !diagnostics.good()) return std::nullopt;
+  std::optional<ExpandedScene> whole = expanded(std::move(scene), diagnostics, of_blocks, preparation);
+  if (!whole) return std::nullopt;
+  LoadedScene loaded{std::move(*whole), {}, {}, {}, {}, 0};
   if (!of_names.good()) loaded.scene.stage.clear();
-  for_each_stage(loaded.scene, [&](const Scene& stage) { check_references(stage, diagnostics, of_blocks); });
+  for_each_stage(loaded.scene,
+                 [&](const ExpandedScene& stage) { check_references(stage, diagnostics, of_blocks); });
   for (const Diagnostic& fault : of_names.sorted()) diagnostics.warning(fault.place, fault.message);
   // A scene that is too large is not built.
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
@@ -99,7 +108,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
   lay_moving_loads(loaded.scene, solids, of_blocks);
-  for_each_stage(loaded.scene, [&](const Scene& stage) {
+  for_each_stage(loaded.scene, [&](const ExpandedScene& stage) {
     check_placement(stage, solids, diagnostics);
     check_limits(stage, solids, diagnostics);
     check_boundaries(stage, solids, diagnostics);
@@ -115,7 +124,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
   warn_of_keys_idle_in_all(loaded.scene, diagnostics);
   warn_of_boundaries(loaded.scene, diagnostics);
-  for_each_stage(loaded.scene, [&](const Scene& stage) {
+  for_each_stage(loaded.scene, [&](const ExpandedScene& stage) {
     warn_of_implausible_keys(stage, diagnostics);
     warn_of_jumping_supports(stage, diagnostics);
     warn_of_soft_blocks(stage, solids, diagnostics);

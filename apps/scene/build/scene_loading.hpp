@@ -11,14 +11,14 @@
 #include "apps/scene/check/cost_estimate.hpp"
 #include "apps/scene/check/initial_overlap.hpp"
 #include "apps/scene/model/diagnostics.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 #include "apps/scene/model/preparation.hpp"
-#include "apps/scene/model/scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
 
 struct LoadedScene {
-  Scene scene;
+  ExpandedScene scene;
   std::vector<Polyhedron> solids;  ///< one per scene.block, placed
   /// One per scene.block, before translation; equal ones are shared.
   std::vector<std::shared_ptr<const Polyhedron>> shapes;

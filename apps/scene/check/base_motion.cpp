@@ -106,7 +106,7 @@ std::optional<std::size_t> moved_base(const Scene& scene) {
   return base;
 }
 
-void warn_of_jumping_supports(const Scene& scene, Diagnostics& diagnostics) {
+void warn_of_jumping_supports(const ExpandedScene& scene, Diagnostics& diagnostics) {
   if (is_static(scene.analysis)) return;
   const double step = scene.analysis.time_step;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {

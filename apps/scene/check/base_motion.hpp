@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 
 namespace ashlar {
 
@@ -17,7 +17,7 @@ inline constexpr double largest_ordinary_jump = 10.0;
 /// if the acceleration in a step at a row, (jump of velocity) / time_step, exceeds largest_ordinary_jump times the
 /// largest one of the natural cubic spline through the rows: it grows without bound as steps get shorter. A motion
 /// that begins or ends with a velocity jumps there. Not in statics.
-void warn_of_jumping_supports(const Scene& scene, Diagnostics& diagnostics);
+void warn_of_jumping_supports(const ExpandedScene& scene, Diagnostics& diagnostics);
 
 /// Velocities and accelerations at the end of velocity and acceleration records (or of the analysis, if it comes
 /// first), one line each.

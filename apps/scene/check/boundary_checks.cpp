@@ -167,7 +167,7 @@ void warn_of_idle_waves(const Scene& scene, Diagnostics& diagnostics) {
 
 }  // namespace
 
-void check_boundaries(const Scene& stage, const std::vector<std::optional<Polyhedron>>& solids,
+void check_boundaries(const ExpandedScene& stage, const std::vector<std::optional<Polyhedron>>& solids,
                       Diagnostics& diagnostics) {
   if (stage.boundary.empty()) return;
   if (stage.analysis.formulation == SceneAnalysis::Formulation::incremental)

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
@@ -14,7 +14,7 @@ namespace ashlar {
 /// faces with a support or another boundary, the incremental formulation, and free-field boundaries without a base, with
 /// gaps, or with a wave.
 /// @param stage a scene of one stage. @param solids by block; empty: not built
-void check_boundaries(const Scene& stage, const std::vector<std::optional<Polyhedron>>& solids,
+void check_boundaries(const ExpandedScene& stage, const std::vector<std::optional<Polyhedron>>& solids,
                       Diagnostics& diagnostics);
 
 /// Warns of a motion that starts without the reaction that holds the weight, and of waves in statics alone.

@@ -56,7 +56,7 @@ double width_of(const Polyhedron& solid) {
 
 }  // namespace
 
-void warn_of_implausible_keys(const Scene& scene, Diagnostics& diagnostics) {
+void warn_of_implausible_keys(const ExpandedScene& scene, Diagnostics& diagnostics) {
   warn_of_small_angle(scene, "contact.friction_angle", scene.contact.law.friction_angle, diagnostics);
   for (std::size_t k = 0; k < scene.joint.size(); ++k)
     warn_of_small_angle(scene, fmt::format("joint.{}.friction_angle", k),
@@ -65,7 +65,7 @@ void warn_of_implausible_keys(const Scene& scene, Diagnostics& diagnostics) {
   warn_of_upward_gravity(scene, diagnostics);
 }
 
-void warn_of_mesh_units(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+void warn_of_mesh_units(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                         Diagnostics& diagnostics) {
   const auto without_scale = [&](std::size_t k) {
     return std::holds_alternative<SceneMesh>(scene.block[k].shape) &&

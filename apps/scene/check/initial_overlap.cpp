@@ -174,7 +174,7 @@ OverlapDepth overlap_depth(const Polyhedron& a, const Polyhedron& b) {
   return overlap_depth(first, second);
 }
 
-std::vector<KnownOverlap> check_initial_overlap(const Scene& scene,
+std::vector<KnownOverlap> check_initial_overlap(const ExpandedScene& scene,
                                                 const std::vector<std::optional<Polyhedron>>& solids,
                                                 Diagnostics& diagnostics) {
   std::vector<std::size_t> blocks;
@@ -218,7 +218,7 @@ std::vector<KnownOverlap> check_initial_overlap(const Scene& scene,
   return known;
 }
 
-void warn_of_known_overlaps(const Scene& scene, const std::vector<KnownOverlap>& overlaps,
+void warn_of_known_overlaps(const ExpandedScene& scene, const std::vector<KnownOverlap>& overlaps,
                             Diagnostics& diagnostics) {
   const KnownOverlap* deepest = nullptr;
   std::size_t count = 0;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
@@ -46,12 +46,12 @@ struct KnownOverlap {
 /// errors, or contact.allowed_overlap up to most_allowed_overlap. Pairs of fixed blocks may overlap.
 /// @param solids one per scene.block; blocks without a solid and absent blocks are ignored
 /// @return if contact.allowed_overlap is given, the pairs within it, in their order
-std::vector<KnownOverlap> check_initial_overlap(const Scene& scene,
+std::vector<KnownOverlap> check_initial_overlap(const ExpandedScene& scene,
                                                 const std::vector<std::optional<Polyhedron>>& solids,
                                                 Diagnostics& diagnostics);
 
 /// Warns of the pairs accepted by contact.allowed_overlap.
-void warn_of_known_overlaps(const Scene& scene, const std::vector<KnownOverlap>& overlaps,
+void warn_of_known_overlaps(const ExpandedScene& scene, const std::vector<KnownOverlap>& overlaps,
                             Diagnostics& diagnostics);
 
 }  // namespace ashlar

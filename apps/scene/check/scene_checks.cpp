@@ -352,7 +352,7 @@ void check_cuts(const Scene& scene, Diagnostics& diagnostics) {
     check_known(scene, entry_key("joint", i, "cut"), "cut", scene.joint[i].cut, cuts, diagnostics);
 }
 
-void check_placement(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+void check_placement(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                      Diagnostics& diagnostics) {
   check_levels(scene, solids, diagnostics);
   PlacementCheck check(scene, diagnostics);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
@@ -22,7 +22,7 @@ void check_cuts(const Scene& scene, Diagnostics& diagnostics);
 /// Points of measures, supports and loads are points of their block, and planes contain a face of it. Points are
 /// checked against the solid's bounding box (see placement_tolerance). Blocks without a solid are ignored.
 /// @param solids one per scene.block.
-void check_placement(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+void check_placement(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                      Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -84,7 +84,7 @@ void check_histories(const Scene& scene, std::size_t k, double size, Diagnostics
 
 }  // namespace
 
-void check_limits(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+void check_limits(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                   Diagnostics& diagnostics) {
   const double least = rounding * farthest_coordinate(solids);
   check_length("distance", scene.contact.distance, least, scene, diagnostics);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
@@ -21,7 +21,7 @@ namespace ashlar {
 ///   a support's history                               with displacements at which coordinates are rounded to more than
 ///                                                     1e-6 of the block's size, the tolerance of overlaps
 /// @param solids one per scene.block; missing ones are ignored
-void check_limits(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+void check_limits(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                   Diagnostics& diagnostics);
 
 }  // namespace ashlar

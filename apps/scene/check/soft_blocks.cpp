@@ -138,7 +138,7 @@ void warn_of_stiffness(const Scene& scene, const std::string& key, double stiffn
 
 }  // namespace
 
-void warn_of_soft_blocks(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+void warn_of_soft_blocks(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                          Diagnostics& diagnostics) {
   std::vector<JudgedBlock> blocks;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
@@ -25,7 +25,7 @@ inline constexpr double largest_ordinary_strain = 0.1;
 /// size under its own weight, with contact over a whole face (area springs) or at three points (point springs).
 /// Automatic stiffnesses are proportional to E. Fixed blocks and weightless scenes at rest cause no warning.
 /// @param solids one per scene.block; missing ones are ignored
-void warn_of_soft_blocks(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+void warn_of_soft_blocks(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                          Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -119,7 +119,7 @@ void check_measures(const Scene& scene, const std::vector<SupportLine>& lines, D
 
 }  // namespace
 
-void check_supports(const Scene& whole, const std::vector<std::optional<Polyhedron>>& solids,
+void check_supports(const ExpandedScene& whole, const std::vector<std::optional<Polyhedron>>& solids,
                     Diagnostics& diagnostics) {
   const bool any =
       !whole.bolt.empty() || !whole.prop.empty() ||

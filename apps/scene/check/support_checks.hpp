@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
@@ -14,7 +14,7 @@ namespace ashlar {
 /// analyses without them: movements of supports, the incremental formulation. Warns of bolts in a single block, and of
 /// properties without effect on limit analysis and thrust, if the scene asks for them.
 /// @param whole of all stages. @param solids by block; empty: not built
-void check_supports(const Scene& whole, const std::vector<std::optional<Polyhedron>>& solids,
+void check_supports(const ExpandedScene& whole, const std::vector<std::optional<Polyhedron>>& solids,
                     Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -57,7 +57,7 @@ void end_waves(Scene& scene) {
 class StageScenes {
  public:
   /// @param whole has stages and must outlive this
-  explicit StageScenes(const Scene& whole)
+  explicit StageScenes(const ExpandedScene& whole)
       : whole_(whole), scene_(whole), was_there_(whole.block.size(), false) {
     scene_.absent = held_back(whole);
     add_later_supports(whole, scene_);
@@ -76,8 +76,8 @@ class StageScenes {
     change_supports(whole_, *stage_, scene_);
     name_places(*stage_);
   }
-  [[nodiscard]] const Scene& scene() const { return scene_; }
-  [[nodiscard]] Scene&& take() { return std::move(scene_); }
+  [[nodiscard]] const ExpandedScene& scene() const { return scene_; }
+  [[nodiscard]] ExpandedScene&& take() { return std::move(scene_); }
 
  private:
   /// Histories of [[block]] end with the first stage of the block; those of a stage end with it.
@@ -163,8 +163,8 @@ class StageScenes {
     }
   }
 
-  const Scene& whole_;
-  Scene scene_;
+  const ExpandedScene& whole_;
+  ExpandedScene scene_;
   std::optional<std::size_t> stage_;  ///< stage of scene_; empty: before the first
   std::vector<bool> was_there_;       ///< by block, true if present in a stage that has ended
   Added added_fixes_, added_loads_;   ///< by the present stage
@@ -335,14 +335,14 @@ void change_presence(const Scene& scene, const SceneStage& stage, std::vector<bo
   }
 }
 
-Scene scene_of_stage(const Scene& whole, std::size_t stage) {
+ExpandedScene scene_of_stage(const ExpandedScene& whole, std::size_t stage) {
   if (whole.stage.empty()) return whole;
   StageScenes scenes(whole);
   for (std::size_t s = 0; s <= stage; ++s) scenes.advance();
   return scenes.take();
 }
 
-void for_each_stage(const Scene& whole, const std::function<void(const Scene&)>& look) {
+void for_each_stage(const ExpandedScene& whole, const std::function<void(const ExpandedScene&)>& look) {
   if (whole.stage.empty()) {
     look(whole);
     return;

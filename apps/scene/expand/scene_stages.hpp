@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
-#include "apps/scene/model/scene.hpp"
+#include "apps/scene/model/expanded_scene.hpp"
 
 namespace ashlar {
 
@@ -33,11 +33,11 @@ void change_presence(const Scene& scene, const SceneStage& stage, std::vector<bo
 /// The scene of one stage, with all stages still listed; the scene itself if it has none. Places refer to the keys of
 /// the stages.
 /// @param stage index into whole.stage
-[[nodiscard]] Scene scene_of_stage(const Scene& whole, std::size_t stage);
+[[nodiscard]] ExpandedScene scene_of_stage(const ExpandedScene& whole, std::size_t stage);
 
 /// Calls `look` with the scene of each stage in turn; with the scene itself if it has none. Each is derived from the
 /// one before, so that the time is linear in the number of stages.
-void for_each_stage(const Scene& whole, const std::function<void(const Scene&)>& look);
+void for_each_stage(const ExpandedScene& whole, const std::function<void(const ExpandedScene&)>& look);
 
 /// Number of scenes from scene_of_stage: the number of stages, or 1.
 [[nodiscard]] std::size_t stage_count(const Scene& scene);

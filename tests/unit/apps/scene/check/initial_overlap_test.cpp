@@ -100,7 +100,8 @@ TEST(InitialOverlap, IsReportedAtTheSecondBlockOfAPair) {
   Diagnostics diagnostics;
   const Scene scene = parse_scene(sample_with(16, "box = { min = [0, 0, 0.75], max = [1, 1, 1.75] }"),
                                   "s.toml", {}, diagnostics);
-  check_initial_overlap(scene, {box({0, 0, 0.75}, {1, 1, 1.75}), box({0, 0, 0}, {4, 1, 1})}, diagnostics);
+  check_initial_overlap(ExpandedScene(scene), {box({0, 0, 0.75}, {1, 1, 1.75}), box({0, 0, 0}, {4, 1, 1})},
+                        diagnostics);
   EXPECT_THAT(
       printed(diagnostics),
       ElementsAre("s.toml:17:1: error: blocks \"A\" and \"B\" overlap by 0.25 m, allowed is touching or "
@@ -112,9 +113,11 @@ TEST(InitialOverlap, RoundingOfPlacedBlocksIsAllowedAndNoMore) {
   const Scene scene = parse_scene(sample(), "s.toml", {}, diagnostics);
   const Polyhedron below = box({0, 0, 0}, {8, 8, 8});
   // The smaller block has a volume of 1 m^3.
-  check_initial_overlap(scene, {box({0, 0, 8 - 0.9e-6}, {1, 1, 9 - 0.9e-6}), below}, diagnostics);
+  check_initial_overlap(ExpandedScene(scene), {box({0, 0, 8 - 0.9e-6}, {1, 1, 9 - 0.9e-6}), below},
+                        diagnostics);
   EXPECT_THAT(printed(diagnostics), IsEmpty());
-  check_initial_overlap(scene, {box({0, 0, 8 - 1.1e-6}, {1, 1, 9 - 1.1e-6}), below}, diagnostics);
+  check_initial_overlap(ExpandedScene(scene), {box({0, 0, 8 - 1.1e-6}, {1, 1, 9 - 1.1e-6}), below},
+                        diagnostics);
   EXPECT_EQ(printed(diagnostics).size(), 1U);
 }
 
@@ -124,8 +127,9 @@ std::vector<KnownOverlap> overlaps(double allowed, double depth, std::vector<std
   Scene scene = parse_scene(sample(), "s.toml", {}, diagnostics);
   scene.contact.allowed_overlap = allowed;
   const std::vector<KnownOverlap> known = check_initial_overlap(
-      scene, {box({0, 0, 1 - depth}, {1, 1, 2 - depth}), box({0, 0, 0}, {4, 1, 1})}, diagnostics);
-  warn_of_known_overlaps(scene, known, diagnostics);
+      ExpandedScene(scene), {box({0, 0, 1 - depth}, {1, 1, 2 - depth}), box({0, 0, 0}, {4, 1, 1})},
+      diagnostics);
+  warn_of_known_overlaps(ExpandedScene(scene), known, diagnostics);
   told = printed(diagnostics);
   return known;
 }
@@ -171,10 +175,10 @@ TEST(InitialOverlap, TwoFixedBlocksMayOverlap) {
   const std::vector<std::optional<Polyhedron>> solids = {box({0, 0, 0}, {1, 1, 1}),
                                                          box({0, 0, 0}, {4, 1, 1})};
   scene.block[0].fixed = scene.block[1].fixed = true;
-  check_initial_overlap(scene, solids, diagnostics);
+  check_initial_overlap(ExpandedScene(scene), solids, diagnostics);
   EXPECT_TRUE(diagnostics.good());
   scene.block[1].fixed = false;
-  check_initial_overlap(scene, solids, diagnostics);
+  check_initial_overlap(ExpandedScene(scene), solids, diagnostics);
   EXPECT_FALSE(diagnostics.good());
 }
 

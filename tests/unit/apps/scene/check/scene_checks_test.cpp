@@ -17,7 +17,7 @@ std::vector<std::string> all_faults(const std::string& text, const std::vector<s
   Diagnostics diagnostics;
   const Scene scene = parse_scene(text, "s.toml", overrides, diagnostics);
   check_references(scene, diagnostics);
-  check_placement(scene, build_solids(scene, diagnostics), diagnostics);
+  check_placement(ExpandedScene(scene), build_solids(scene, diagnostics), diagnostics);
   return printed(diagnostics);
 }
 

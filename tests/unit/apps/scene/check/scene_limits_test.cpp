@@ -16,7 +16,7 @@ using ::testing::StartsWith;
 std::vector<std::string> faults(const std::string& text, const std::vector<std::string>& overrides = {}) {
   Diagnostics diagnostics;
   const Scene scene = parse_scene(text, "s.toml", overrides, diagnostics);
-  check_limits(scene, build_solids(scene, diagnostics), diagnostics);
+  check_limits(ExpandedScene(scene), build_solids(scene, diagnostics), diagnostics);
   return printed(diagnostics);
 }
 

@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 std::vector<std::string> warnings(const std::vector<std::string>& overrides) {
   Diagnostics diagnostics;
   const Scene scene = parse_scene(sample(), "s.toml", overrides, diagnostics);
-  warn_of_soft_blocks(scene, build_solids(scene, diagnostics), diagnostics);
+  warn_of_soft_blocks(ExpandedScene(scene), build_solids(scene, diagnostics), diagnostics);
   EXPECT_TRUE(diagnostics.good());
   return printed(diagnostics);
 }

@@ -113,7 +113,8 @@ TEST(RegionBlocks, ListsOfStagesChooseAmongTheBlocksThere) {
   // The prop is held back until stage 3, row.1 is gone before stage 2.
   EXPECT_THAT(scene.stage[1].remove, ElementsAre("row.2"));
   EXPECT_THAT(scene.stage[2].fix[0].blocks, ElementsAre("row.1", "row.2"));
-  EXPECT_EQ(scene_of_stage(scene, 1).absent, (std::vector<bool>{false, true, true, false, false, true}));
+  EXPECT_EQ(scene_of_stage(ExpandedScene(scene), 1).absent,
+            (std::vector<bool>{false, true, true, false, false, true}));
   EXPECT_EQ(to_json(scene).at("stage").at(1).at("remove"), (nlohmann::json{"row.2"}));
 }
 

@@ -65,7 +65,7 @@ remove = ["a"]
   Loads of_a, of_late;
   std::vector<std::vector<bool>> absent;
   std::vector<std::string> places;
-  for_each_stage(scene, [&](const Scene& stage) {
+  for_each_stage(ExpandedScene(scene), [&](const Scene& stage) {
     of_a.push_back(loads_of(stage, 1));
     of_late.push_back(loads_of(stage, 2));
     absent.push_back(stage.absent);
@@ -95,8 +95,8 @@ name = "three"
 material = [{ name = "m", density = 1000, young_modulus = 1e9, poisson_ratio = 0.2 }]
 )");
   std::size_t k = 0;
-  for_each_stage(scene, [&](const Scene& stage) {
-    const Scene alone = scene_of_stage(scene, k++);
+  for_each_stage(ExpandedScene(scene), [&](const Scene& stage) {
+    const Scene alone = scene_of_stage(ExpandedScene(scene), k++);
     EXPECT_EQ(alone.absent, stage.absent);
     EXPECT_EQ(alone.joint.size(), k < 2 ? 0U : 1U);
     EXPECT_EQ(stage.joint.size(), alone.joint.size());
@@ -114,7 +114,7 @@ TEST(SceneStages, AreCheckedInATimeThatGoesWithTheirNumber) {
   // If each were built from all before it, these would be 2e6 stages, a minute.
   const Scene scene = loaded(stages);
   ASSERT_EQ(scene.stage.size(), 2000U);
-  EXPECT_EQ(scene_of_stage(scene, 1999).analysis.end_time, 2000.0);
+  EXPECT_EQ(scene_of_stage(ExpandedScene(scene), 1999).analysis.end_time, 2000.0);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ Found loaded(const std::string& text) {
 std::vector<SupportLine> lines_of(const LoadedScene& scene, std::size_t stage = 0) {
   std::vector<const Polyhedron*> solids;
   for (const Polyhedron& solid : scene.solids) solids.push_back(&solid);
-  return support_lines(scene_of_stage(scene.scene, stage), solids);
+  return support_lines(scene_of_stage(ExpandedScene(scene.scene), stage), solids);
 }
 
 const std::string steel = "area = 1e-3\nbond_stiffness = 1e9\n";

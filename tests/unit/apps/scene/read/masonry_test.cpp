@@ -48,7 +48,7 @@ Built built(const std::string& masonry) {
   Diagnostics diagnostics;
   Built result{parse_scene(scene_text(masonry), "s.toml", {}, diagnostics), {}};
   const auto solids = build_solids(result.scene, diagnostics);
-  check_initial_overlap(result.scene, solids, diagnostics);
+  check_initial_overlap(ExpandedScene(result.scene), solids, diagnostics);
   EXPECT_THAT(printed(diagnostics), IsEmpty());
   for (const auto& solid : solids)
     if (solid) result.solids.push_back(*solid);
