@@ -95,7 +95,8 @@ std::vector<OrderError> order_errors(const Simulation& simulation) {
   for (int k = 0; k < static_cast<int>(simulation.blocks().size()); ++k) {
     const BlockModel& block = simulation.blocks()[at(k)];
     if (!simulation.system().moving()[at(k)] || block.rigid() || block.incremental() != nullptr ||
-        block.quiet() || block.order() >= largest_order(block) || bolted.contains(k))
+        block.quiet() || simulation.system().is_tied(k) || block.order() >= largest_order(block) ||
+        bolted.contains(k))
       continue;
     errors.push_back({k});
   }

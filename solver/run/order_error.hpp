@@ -9,8 +9,8 @@
 // Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
 // the contacts and errors of their forces are not in it.
 //
-// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order, and those with bolts or quiet
-// faces.
+// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order, and those with ties, bolts
+// or quiet faces, whose forces are not recorded.
 #pragma once
 
 #include <vector>
