@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/statics/static_start.hpp"
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/quiet_release.hpp"
 
@@ -61,7 +62,7 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
   // Those of this stage are installed where the blocks are now.
   state.bolts = end.run.bolts;
   commit_bolts(state);
-  in_springs += install_bolts(run.system, state);
+  in_springs += install_bolts(run.system, state) + energy_of_ties(run);
   state.steps = end.run.steps;
   state.remembers_statics = true;
   state.report = end.run.report;

@@ -29,6 +29,7 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   for (auto& [blocks, pair] : state.pairs) pair.work = 0.0;
   commit_bolts(state);
   for (const BoltState& bolt : state.bolts) in_springs += bolt.stored;
+  in_springs += energy_of_ties(run);
   state.log.rejections.clear();
   state.steps = 0;
   state.remembers_statics = true;
@@ -37,6 +38,14 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   state.extremes = ContactExtremes{
       .penetration = state.report.penetration, .deepest = {}, .sliding_friction = {}, .dilating_slip = {}};
   return status;
+}
+
+double energy_of_ties(const RunContext& run) {
+  double sum = 0.0;
+  if (run.system.ties().empty()) return sum;
+  for (const ContactPair& pair : run.contacts.pairs(run.system, run.state, {}, PairUse::statics))
+    if (pair.tied()) sum += pair.start_energy();
+  return sum;
 }
 
 }  // namespace ashlar

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "support/simulations.hpp"
@@ -170,6 +171,19 @@ TEST(Tie, HoldsABlockToAFixedOne) {
   EXPECT_NEAR(place_of(simulation, 1, {2, 0, 0}).x() - 2.0, 2500 * 9.81 * 1.0 / 1e9 * 2.0, 1e-8);
   // Compression of the joint: m g / (k A).
   EXPECT_NEAR(place_of(simulation, 1, {0, 0, 0}).x() / (2500 * 2 * 9.81 / 1e14), 1.0, 1e-3);
+}
+
+// The static state has energy in the springs of the tie, which a motion from it must not count as gained.
+TEST(Tie, MotionFromStaticsBeginsWithItsEnergy) {
+  BlockDefinition base = block_of("base", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500, 1e7, 0.2}, 2);
+  base.supports.push_back({Plane{{0, 0, 0}, -Vector3::UnitZ()}});
+  BlockDefinition top = block_of("top", Polyhedron(make_box({0, 0, 1}, {1, 1, 2})), {2500, 1e7, 0.2}, 2);
+  Simulation simulation = chain({base, top}, {{}, {}}, SimulationSettings{}, 1e8);
+  ASSERT_EQ(simulation.start_from_statics(), StaticStatus::equilibrium);
+  ASSERT_TRUE(run_until(simulation, 0.01));
+  // Mean force 25 kN, stiffness 1e8 N/m: some 3 J.
+  EXPECT_GT(simulation.ledger().contact, 1.0);
+  EXPECT_LT(std::abs(simulation.ledger().residual), 1e-9 * simulation.ledger().contact);
 }
 
 }  // namespace
