@@ -33,13 +33,15 @@ using ::testing::StartsWith;
 TEST_F(RunCommand, WritesTheResultFolder) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   EXPECT_THAT(files("out"), ElementsAre(".ashlar", "blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd",
-                                        "frames", "history.csv", "joints.pvd", "summary.json"));
-  EXPECT_THAT(files("out/frames"),
-              ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "blocks_0000020.vtu",
-                          "blocks_0000030.vtu", "blocks_0000040.vtu", "contacts_0000000.vtu",
-                          "contacts_0000010.vtu", "contacts_0000020.vtu", "contacts_0000030.vtu",
-                          "contacts_0000040.vtu", "joints_0000000.vtu", "joints_0000010.vtu",
-                          "joints_0000020.vtu", "joints_0000030.vtu", "joints_0000040.vtu"));
+                                        "frames", "history.csv", "joints.pvd", "loads.pvd", "summary.json"));
+  EXPECT_THAT(
+      files("out/frames"),
+      ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "blocks_0000020.vtu", "blocks_0000030.vtu",
+                  "blocks_0000040.vtu", "contacts_0000000.vtu", "contacts_0000010.vtu",
+                  "contacts_0000020.vtu", "contacts_0000030.vtu", "contacts_0000040.vtu",
+                  "joints_0000000.vtu", "joints_0000010.vtu", "joints_0000020.vtu", "joints_0000030.vtu",
+                  "joints_0000040.vtu", "loads_0000000.vtu", "loads_0000010.vtu", "loads_0000020.vtu",
+                  "loads_0000030.vtu", "loads_0000040.vtu"));
 }
 
 TEST_F(RunCommand, HistoryHasARowPerStepAndTheColumnsOfRecord) {
@@ -242,7 +244,7 @@ TEST_F(RunCommand, ResumedRunIsTheRunThatNeverStopped) {
   ASSERT_EQ(run("straight"), exit_status::done) << faults_;
   // In the middle of contact and between two frames.
   ASSERT_EQ(run("cut", {"--set", "analysis.end_time=0.017"}), exit_status::done) << faults_;
-  EXPECT_EQ(files("cut/frames").size(), 9U) << "frames at 0, 10 and the end";
+  EXPECT_EQ(files("cut/frames").size(), 12U) << "frames at 0, 10 and the end";
   ASSERT_EQ(run("cut", {"--resume", "--threads", "2"}), exit_status::done) << faults_;
   expect_same_results("straight", "cut");
   const auto straight = nlohmann::json::parse(text("straight/summary.json"));
@@ -310,9 +312,10 @@ TEST_F(RunCommand, ResumeNeedsTheTablesOfTheCheckpoint) {
 TEST_F(RunCommand, NewRunRemovesTheResultsOfAnEarlierOne) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   ASSERT_EQ(run("out", {"--force", "--set", "analysis.end_time=0.01"}), exit_status::done) << faults_;
-  EXPECT_THAT(files("out/frames"),
-              ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "contacts_0000000.vtu",
-                          "contacts_0000010.vtu", "joints_0000000.vtu", "joints_0000010.vtu"));
+  EXPECT_THAT(
+      files("out/frames"),
+      ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "contacts_0000000.vtu", "contacts_0000010.vtu",
+                  "joints_0000000.vtu", "joints_0000010.vtu", "loads_0000000.vtu", "loads_0000010.vtu"));
   EXPECT_EQ(lines("out/history.csv").size(), 12U);
 }
 
