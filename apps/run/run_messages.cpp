@@ -81,9 +81,9 @@ void warn_of_order(const Run& run, std::ostream& err) {
   if (!coarse) return;
   const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(coarse->block)];
   err << fmt::format(
-      "ashlar: warning: deformation is resolved to {:.0f} % only (in the norm of the strain energy, "
-      "estimated), worst "
-      "in block {}: raise its order above {}, or tie smaller blocks\n",
+      "ashlar: warning: the estimated error of deformation is {:.0f} % (in the norm of the strain energy), "
+      "largest in "
+      "block {} of order {}: raise its order, or tie smaller blocks\n",
       100.0 * coarse->relative(), block.name(), block.order());
 }
 
