@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "apps/scene/build/build_simulation.hpp"
@@ -51,19 +52,19 @@ class QuietScene {
  public:
   explicit QuietScene(const std::string& text = ground) {
     Diagnostics faults;
-    loaded_ = *load_scene_text(text, "s.toml", {}, faults);
+    loaded_ = load_scene_text(text, "s.toml", {}, faults);
     settings_.integrator = Integrator::average_acceleration;
     settings_.time_step = 1e-3;
     EXPECT_TRUE(faults.good());
   }
   [[nodiscard]] std::vector<QuietFaces> of_block(std::size_t block) const {
     Diagnostics faults;
-    return QuietBoundaries(loaded_.scene, loaded_.solids, settings_, faults).of_block(block);
+    return QuietBoundaries(loaded_->scene, loaded_->solids, settings_, faults).of_block(block);
   }
-  [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+  [[nodiscard]] const LoadedScene& loaded() const { return *loaded_; }
 
  private:
-  LoadedScene loaded_;
+  std::optional<LoadedScene> loaded_;
   SimulationSettings settings_;
 };
 

@@ -38,7 +38,7 @@ Scene scene_of(const std::string& text) {
   Diagnostics faults;
   const auto loaded = load_scene_text(text, "s.toml", {}, faults);
   EXPECT_TRUE(loaded) << (faults.sorted().empty() ? "" : faults.sorted().front().message);
-  return loaded ? loaded->scene : Scene{};
+  return loaded ? Scene(loaded->scene) : Scene{};
 }
 
 TEST(StressField, K0IsTheWeightAbove) {
