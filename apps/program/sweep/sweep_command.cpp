@@ -180,9 +180,10 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
                    "The table (default: scene name + .sweep.csv); runs are beside it")
       ->type_name("FILE");
   command
-      ->add_option("--picture", options->picture,
-                   "A picture too, of the first value against the keys: .svg, or .png with an .svg beside it; a "
-                   "script beside them draws it (Python with matplotlib)")
+      ->add_option(
+          "--picture", options->picture,
+          "A picture too, of the first value against the keys: .svg, or .png with an .svg beside it; a "
+          "script beside them draws it (Python with matplotlib)")
       ->type_name("FILE");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time (default: one for each processor)")
       ->check(CLI::PositiveNumber)
