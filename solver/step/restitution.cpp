@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/step/impact.hpp"
 
@@ -132,8 +133,13 @@ double first_impact(const RunContext& run, double step, const StepProblem& probl
 class ImpactOfBlocks {
  public:
   ImpactOfBlocks(const RunContext& run, const std::vector<ContactPair>& pairs)
-      : run_(run), pairs_(pairs), motions_(run), group_(run.blocks().size()) {
+      : run_(run),
+        pairs_(pairs),
+        motions_(run),
+        bonded_(run.blocks().size() + 1),
+        group_(run.blocks().size()) {
     std::iota(group_.begin(), group_.end(), 0);
+    for (const ContactPair& pair : pairs) note_bonds(pair);
   }
 
   /// @return false if no blocks meet fast enough
@@ -186,12 +192,26 @@ class ImpactOfBlocks {
     return root(at(motions_.moves(pair.a()) ? pair.a() : pair.b()));
   }
 
+  /// Blocks that cannot move rigidly are one with the ground.
+  [[nodiscard]] int body_or_ground(int block) {
+    const bool moves = motions_.moves(block) && motions_.modes(block).cols() > 0;
+    return moves ? block : static_cast<int>(run_.blocks().size());
+  }
+  void note_bonds(const ContactPair& pair) {
+    for (std::size_t k = 0; k < pair.points().size(); ++k) {
+      if (!pair.holds(k)) continue;
+      bonded_.unite(body_or_ground(pair.a()), body_or_ground(pair.b()));
+      return;
+    }
+  }
+
   /// Lists the touching points of a pair and joins its blocks. @return true if they meet
   bool note_touching(std::size_t n) {
     const ContactPair& pair = pairs_[n];
     meets_.resize(group_.size(), false);
     const double gap = touching_gap(run_.settings()), fast = speed_of_a_step(run_);
     const double e = pair.restitution().value_or(0.0);
+    const bool apart = bonded_.find(body_or_ground(pair.a())) != bonded_.find(body_or_ground(pair.b()));
     std::optional<Eigen::Matrix3Xd> velocities;
     bool meets = false;
     for (std::size_t k = 0; k < pair.points().size(); ++k) {
@@ -203,7 +223,7 @@ class ImpactOfBlocks {
       if (!loaded && pair.start_gap(k) > gap) continue;
       if (!velocities) velocities = motions_.at_points(pair);
       const double velocity = (*velocities)(0, static_cast<Eigen::Index>(k));
-      const bool impact = pair.restitution() && !loaded && -velocity > fast;
+      const bool impact = pair.restitution() && apart && !loaded && -velocity > fast;
       const bool rebounds = impact && -e * velocity > 0.5 * fast;
       meets = meets || impact;
       // A contact that bears is not loaded further, whatever its springs do.
@@ -274,6 +294,7 @@ class ImpactOfBlocks {
   const RunContext& run_;
   const std::vector<ContactPair>& pairs_;
   RigidMotions motions_;
+  UnionFind bonded_;                ///< blocks that bonds hold together, and the ground behind them
   std::vector<std::size_t> group_;  ///< by block: another one of its group, itself: the first
   std::vector<bool> meets_;         ///< by first block of a group
   std::vector<std::vector<TouchingPoint>> touching_;  ///< by pair

@@ -50,7 +50,8 @@ TEST_P(DemoScene, HasItsPicture) {
   const std::filesystem::path pictures = std::filesystem::path(ASHLAR_DATA_DIR) / "pictures";
   const std::string file = name + (name == "falling_block" ? "_0950.png" : ".png");
   ASSERT_TRUE(std::filesystem::exists(pictures / file)) << "data/make_pictures.sh draws it";
-  EXPECT_LT(std::filesystem::file_size(pictures / file), 150'000U);
+  // 1280 x 840 pixels.
+  EXPECT_LT(std::filesystem::file_size(pictures / file), 300'000U);
   EXPECT_NE(read_text(GetParam()).find("data/pictures/" + name), std::string::npos);
   EXPECT_NE(
       read_text(std::filesystem::path(ASHLAR_DATA_DIR) / "../apps/docs/gallery.md").find("pictures/" + file),
