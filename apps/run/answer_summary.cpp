@@ -39,7 +39,8 @@ AnsweredEnd drawn_end(const Answer& answer, const SceneAnalysis& analysis, const
 AnsweredEnd bracket_end(const FactorBracket& bracket, const SceneAnalysis& analysis,
                         const Simulation& simulation, AnsweredEnd shown) {
   if (shown.status == RunStatus::interrupted) return shown;
-  const std::string motion = shown.status == RunStatus::moving ? ": " + motion_in_words(simulation) : "";
+  std::string motion = shown.status == RunStatus::moving ? motion_in_words(simulation) : "";
+  if (!motion.empty()) motion.insert(0, ": ");
   return {bracket.resolved ? RunStatus::completed : RunStatus::not_converged,
           describe(bracket, analysis) + motion};
 }

@@ -78,6 +78,7 @@ std::optional<double> WaterLevel::depth(const Vector3& point) const {
 void WaterLevel::add_below(const Inclined& level, std::vector<Vector3> polygon,
                            std::vector<LinearPatch>& parts) {
   std::vector<double> depth;
+  depth.reserve(polygon.size());
   for (const Vector3& corner : polygon) depth.push_back(level.gradient.dot(corner - level.origin));
   if (std::any_of(depth.begin(), depth.end(), [](double d) { return d < 0.0; }))
     polygon = not_negative(polygon, depth);
@@ -127,6 +128,7 @@ std::vector<LinearPatch> WaterLevel::below(const std::vector<Vector3>& polygon) 
     bool of_other = false;
     for (std::size_t side = 0; side < 3 && inside.size() >= 3; ++side) {
       std::vector<double> shares_of_corners;
+      shares_of_corners.reserve(inside.size());
       for (const Vector3& corner : inside) shares_of_corners.push_back(shares(k, corner)[side]);
       const bool on_side = std::all_of(shares_of_corners.begin(), shares_of_corners.end(),
                                        [](double share) { return share == 0.0; });

@@ -20,6 +20,7 @@ namespace {
 Eigen::Matrix3d axes_of(const std::vector<BlockModel>& blocks) {
   constexpr double rounding = 1e-9;
   std::vector<const Polyhedron*> solids;
+  solids.reserve(blocks.size());
   for (const BlockModel& block : blocks) solids.push_back(&block.solid());
   return axes_along_largest_face(solids, rounding);
 }
@@ -36,6 +37,7 @@ void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairConta
 /// By block: true for present blocks that never move. @param absent by block, or empty
 std::vector<bool> fixed_and_present(const std::vector<BlockModel>& blocks, const std::vector<bool>& absent) {
   std::vector<bool> fixed;
+  fixed.reserve(blocks.size());
   for (const BlockModel& block : blocks)
     fixed.push_back(block.fixed() && (absent.empty() || !absent[fixed.size()]));
   return fixed;
@@ -213,6 +215,7 @@ Clearance ContactFinder::clearance_of(const PairKey& pair) const {
 void ContactFinder::search_below_occluded(std::vector<FoundContacts>& searched, const KnownContacts& known,
                                           const std::vector<ContactLimits>& limits) {
   std::vector<PairOfContacts> all;
+  all.reserve(searched.size());
   for (const auto& pair : searched) all.emplace_back(pair.blocks, &pair.contacts);
   for (std::size_t n = 0; n < near_.size(); ++n)
     if (known[n] != nullptr) all.emplace_back(near_[n].blocks, known[n]);

@@ -1,16 +1,18 @@
-// Error of a block's order, from the residual on the functions of the next order.
+// Error of a block's order, from the residual on the functions of the next orders.
 //
-// With u of order n and K the stiffness of order n + 1 at the present state, the residual of the present forces
+// With u of order n and K the stiffness of order m at the present state, m = n + 2 up to order 4 (an even or odd
+// solution has nothing in the next order), otherwise n + 1, the residual of the present forces
 //     r = F_external + F_contact - F_elastic(u)
 // is zero on the functions of order n, but for inertia, which is orthogonal to the others. Then
-//     eta^2 = r' K^-1 r                                              r on the functions of degree n + 1 alone
-// is the square of the distance to the solution of order n + 1 in the norm of the strain energy, with the contact
+//     eta^2 = r' K^-1 r                                              r on the functions of degree n + 1 to m alone
+// is the square of the distance to the solution of order m in the norm of the strain energy, with the contact
 // forces as they are; eta^2 / 2 is the strain energy that the block lacks. R. E. Bank and R. K. Smith, SIAM J. Numer.
 // Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
 // the contacts and errors of their forces are not in it.
 //
 // Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order, and those with ties, bolts
-// or quiet faces, whose forces are not recorded.
+// or quiet faces, whose forces are not recorded, with supports that move, or with initial stress, whose energy is not
+// that of their deformation.
 #pragma once
 
 #include <vector>

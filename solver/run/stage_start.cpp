@@ -1,6 +1,9 @@
 #include "solver/run/stage_start.hpp"
 
+#include <array>
+#include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -20,6 +23,29 @@ bool fits(const RunContext& run, const SimulationSnapshot& end, const std::vecto
     same = states[at(k)].position.rows() == run.state.states[at(k)].position.rows() &&
            end.carried.contains(k) == (run.blocks()[at(k)].incremental() != nullptr);
   return same;
+}
+
+/// Ties of added blocks to others are relative to the placed blocks.
+void refuse_strained_ties(const RunContext& run, const std::vector<bool>& was_absent) {
+  // Of the search distance: a tie of this gap has hardly any stress.
+  constexpr double allowed = 1e-3;
+  const std::vector<BlockModel>& blocks = run.blocks();
+  for (const TiedBlocks& tied : run.system.ties()) {
+    if (was_absent[at(tied.a)] == was_absent[at(tied.b)] || !run.system.present(tied.a) ||
+        !run.system.present(tied.b))
+      continue;
+    const Eigen::MatrixX3d gap = tied.tie.a * run.state.states[at(tied.a)].position -
+                                 tied.tie.b * run.state.states[at(tied.b)].position;
+    const double mean = gap.norm() / std::sqrt(tied.tie.area);
+    if (!(mean > allowed * run.settings().contact_distance)) continue;
+    const auto [added, other] =
+        was_absent[at(tied.a)] ? std::array{tied.a, tied.b} : std::array{tied.b, tied.a};
+    throw std::invalid_argument(
+        "block " + blocks[at(added)].name() + " is added with a tie to block " + blocks[at(other)].name() +
+        ", which has moved (by " + std::to_string(mean) +
+        " m at their common face); a tie begins without a gap: add both in one stage, or "
+        "join them without `tied`");
+  }
 }
 
 }  // namespace
@@ -51,6 +77,7 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
     kept.cache.reset();
     kept.work = 0.0;
   }
+  refuse_strained_ties(run, was_absent);
   state.records.clear();
   double in_springs = 0.0;
   for (PairRecord record : end.run.records) {

@@ -15,7 +15,8 @@ namespace ashlar {
 
 /// To be called before the first step. Blocks that were absent start where this simulation has placed them.
 /// @param end of the stage before. @param was_absent in it, by block
-/// @throws std::invalid_argument if it has other blocks or other orders
+/// @throws std::invalid_argument if it has other blocks or other orders, or if a block that was absent is tied to one that
+/// has moved
 void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent);
 
 }  // namespace ashlar

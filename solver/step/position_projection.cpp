@@ -166,6 +166,7 @@ bool project_positions(const RunContext& run, double step, StepProblem& problem,
   StepProblem apart = pose(run, problem.pairs);
   const std::vector<const Island*> deep = deep_islands(run, apart.islands, problem.pairs);
   std::vector<std::vector<PairKey>> contacts;
+  contacts.reserve(deep.size());
   for (const Island* island : deep) contacts.push_back(contacts_of(*island, problem.pairs));
   IslandFunds funds(run.state.pairs, std::move(contacts));
   const std::vector<MovedIsland> moved = solve_deep(run, step, deep, apart, funds);

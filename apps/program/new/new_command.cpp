@@ -38,8 +38,12 @@ int new_command(const NewOptions& options, std::ostream& out, std::ostream& err)
   }
   const std::filesystem::path file = options.file.value_or(options.kind + ".toml");
   const std::filesystem::path schema = file.parent_path() / "scene.schema.json";
+  if (file == "-") {
+    err << "ashlar: error: a scene is written to a file, not to standard output (-)\n";
+    return exit_status::bad_input;
+  }
   if (!options.force && std::filesystem::exists(std::filesystem::symlink_status(file))) {
-    err << fmt::format("ashlar: error: {} exists; choose another name, or --force to replace it\n",
+    err << fmt::format("ashlar: error: {} exists; choose another name, or --force to replace a file\n",
                        file.string());
     return exit_status::bad_input;
   }
@@ -51,8 +55,8 @@ int new_command(const NewOptions& options, std::ostream& out, std::ostream& err)
     err << "ashlar: error: " << fault.what() << '\n';
     return exit_status::bad_input;
   }
-  out << fmt::format("scene: {0}\nschema: {1} (for editors)\nnext: ashlar run {0} --view\n", file.string(),
-                     schema.string());
+  out << fmt::format("scene: {}\nschema: {} (for editors)\nnext: ashlar run '{}' --view\n", file.string(),
+                     schema.string(), (file.string().starts_with('-') ? "." / file : file).string());
   return exit_status::done;
 }
 

@@ -112,7 +112,8 @@ class Figures {
         cost_of(scene_of_text(dominoes_text()), 0, at_least_one(3600)).seconds / machine_, 20.0, "s");
     for (const auto& [order, target] : {std::pair(3, 0.2), std::pair(6, 1.2), std::pair(8, 5.0)})
       add(fmt::format("falling block of order {}, 1350 steps", order),
-          cost_of([order] { return std::optional(falling_block({.order = order})); }, 0, at_least_one(1350))
+          cost_of([order = order] { return std::optional(falling_block({.order = order})); }, 0,
+                  at_least_one(1350))
                   .seconds /
               machine_,
           target, "s");

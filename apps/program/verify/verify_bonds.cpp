@@ -10,7 +10,7 @@ namespace ashlar {
 namespace {
 
 constexpr double tension = 1e5, shear = 2e5, energy_of_tension = 50.0, energy_of_shear = 200.0;
-constexpr double end_opening = 2.0 * energy_of_tension / tension, end_slip = 2.0 * energy_of_shear / shear;
+constexpr double end_opening = 2.0 * energy_of_tension / tension;
 constexpr double height = 0.5, young_modulus = 1e9;
 
 JointLaw softening(double stiffness) {

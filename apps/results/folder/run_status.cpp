@@ -67,6 +67,7 @@ std::string motion_in_words(const Simulation& simulation) {
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
     if (!simulation.blocks()[k].fixed() && simulation.system().present(static_cast<int>(k))) ++movable;
   std::vector<std::string> names;
+  names.reserve(moving.size());
   for (const MovingBlock& one : moving) names.push_back(name(one));
   return fmt::format("{} of {} blocks move: {}; block {} fastest, {}", moving.size(), movable,
                      first_names(names), name(*fastest), acceleration);

@@ -140,6 +140,7 @@ JointPolygons joint_polygons(const Scene& scene, const SceneCrack& crack,
   const Selection selection(scene, crack);
   JointPolygons joints;
   std::vector<Box> boxes;
+  boxes.reserve(blocks.size());
   for (const BlockModel& block : blocks)
     boxes.push_back(box_of(block.solid().mesh().points).grown(allowed_offset(block.solid())));
   for (const std::array<int, 2>& pair : meeting_boxes(boxes)) {

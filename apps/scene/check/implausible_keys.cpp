@@ -37,6 +37,18 @@ void warn_of_no_friction(const Scene& scene, Diagnostics& diagnostics) {
       "slopes and in arches slide; friction_angle = 0 says that this is meant");
 }
 
+/// Ties are springs without stress of their own.
+void warn_of_ties_under_stress(const Scene& scene, Diagnostics& diagnostics) {
+  const bool ties = std::any_of(scene.joint.begin(), scene.joint.end(),
+                                [](const SceneJoint& joint) { return joint.tied.value_or(false); });
+  if (!scene.initial_stress.given() || !ties || is_static(scene.analysis) ||
+      scene.analysis.initial_state == SceneAnalysis::InitialState::statics)
+    return;
+  diagnostics.warning(scene.places.key("initial_stress"),
+                      "ties begin without the stress of the ground: blocks move until ties have taken it up; "
+                      "initial_state = \"static\" brings them to rest first");
+}
+
 /// For a history, its first row.
 void warn_of_upward_gravity(const Scene& scene, Diagnostics& diagnostics) {
   const SceneAnalysis& analysis = scene.analysis;
@@ -63,6 +75,7 @@ void warn_of_implausible_keys(const ExpandedScene& scene, Diagnostics& diagnosti
                         scene.joint[k].friction_angle.value_or(0.0), diagnostics);
   warn_of_no_friction(scene, diagnostics);
   warn_of_upward_gravity(scene, diagnostics);
+  warn_of_ties_under_stress(scene, diagnostics);
 }
 
 void warn_of_mesh_units(const ExpandedScene& scene, const std::vector<std::optional<Polyhedron>>& solids,

@@ -89,6 +89,7 @@ void warn_of_limits(const Scene& scene, const SupportLine& line, Diagnostics& di
 /// Reports removals that match no bolt or prop installed before.
 void check_removals(const Scene& whole, const std::vector<SupportLine>& lines, Diagnostics& diagnostics) {
   std::vector<std::string> names;
+  names.reserve(lines.size());
   for (const SupportLine& line : lines) names.push_back(line.name);
   for (std::size_t s = 0; s < whole.stage.size(); ++s) {
     for (const std::string& pattern : whole.stage[s].remove_support) {
@@ -107,6 +108,7 @@ void check_removals(const Scene& whole, const std::vector<SupportLine>& lines, D
 
 void check_measures(const Scene& scene, const std::vector<SupportLine>& lines, Diagnostics& diagnostics) {
   std::vector<std::string> names;
+  names.reserve(lines.size());
   for (const SupportLine& line : lines) names.push_back(line.name);
   for (std::size_t k = 0; k < scene.measure.size(); ++k) {
     const std::string& name = scene.measure[k].bolt;
@@ -131,6 +133,7 @@ void check_supports(const ExpandedScene& whole, const std::vector<std::optional<
                   [](const SceneMeasure& measure) { return !measure.bolt.empty(); });
   if (!any) return;
   std::vector<const Polyhedron*> built;
+  built.reserve(solids.size());
   for (const std::optional<Polyhedron>& solid : solids) built.push_back(solid ? &*solid : nullptr);
   const Scene scene = scene_of_stage(whole, stage_count(whole) - 1);
   const std::vector<SupportLine> lines = support_lines(scene, built);

@@ -170,6 +170,7 @@ std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const s
     std::vector<MeshGroup> stones = import.stones();
     scene.notes.push_back(import.note(stones.size()));
     std::vector<SceneBlock> blocks;
+    blocks.reserve(stones.size());
     for (MeshGroup& stone : stones) blocks.push_back(block_of(block, std::move(stone), blocks.size() + 1));
     return blocks;
   } catch (const MeshFileError& error) {

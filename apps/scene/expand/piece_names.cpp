@@ -27,6 +27,7 @@ std::vector<std::string> plain_names(const std::string& block, const CutSolid& s
                                      const std::vector<int>& pieces) {
   std::vector<std::string> names;
   int outside = 0, inside = 0;
+  names.reserve(pieces.size());
   for (const int piece : pieces)
     names.push_back(solid.label(piece) == 0 ? fmt::format("{}.{}", block, ++outside)
                                             : fmt::format("{}.{}.{}", block, inside_word, ++inside));

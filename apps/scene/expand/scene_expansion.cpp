@@ -34,6 +34,7 @@ struct BlockList {
 
 std::vector<PieceBlock> as_pieces(std::vector<SceneBlock> blocks) {
   std::vector<PieceBlock> pieces;
+  pieces.reserve(blocks.size());
   for (SceneBlock& block : blocks) pieces.push_back({std::move(block), {}, {}});
   return pieces;
 }

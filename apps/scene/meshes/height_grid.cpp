@@ -186,6 +186,7 @@ std::vector<SurveyPoint> survey_points(std::istream& content) {
 
 std::vector<double> lines_of(const std::vector<SurveyPoint>& points, double SurveyPoint::*axis) {
   std::vector<double> places;
+  places.reserve(points.size());
   for (const SurveyPoint& point : points) places.push_back(point.*axis);
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());

@@ -90,6 +90,7 @@ class RecordReader {
     const std::vector<TextField> fields = fields_of(line, separator_);
     width_ = fields.size();
     std::vector<std::string> names;
+    names.reserve(fields.size());
     for (const TextField& field : fields) names.emplace_back(field.text);
     const bool names_time = std::find(names.begin(), names.end(), record_.time) != names.end();
     if (!names_time && are_numbers(fields)) return number_columns();

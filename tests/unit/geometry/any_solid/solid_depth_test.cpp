@@ -144,7 +144,9 @@ TEST(SolidDepth, SegmentsAlongAFaceAreAsDeepAsTheyWereMovedIn) {
     const double fine = 1e-5 * size;
     for (const PolyhedronFace& face : solid.faces()) {
       const auto& [i, j, k] = solid.mesh().triangles[static_cast<std::size_t>(face.triangles.front())];
-      const auto corner = [&](int index) { return solid.mesh().points[static_cast<std::size_t>(index)]; };
+      const auto corner = [&points = solid.mesh().points](int index) {
+        return points[static_cast<std::size_t>(index)];
+      };
       const Vector3 middle = (corner(i) + corner(j) + corner(k)) / 3.0;
       const Vector3 start = 0.5 * (middle + corner(i));
       const Vector3 end = 0.5 * (middle + corner(j));

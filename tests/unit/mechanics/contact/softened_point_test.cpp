@@ -14,7 +14,7 @@ namespace {
 using test_support::left_out;
 
 // T A = 2000 N at w0 = 1e-5 m, lost at wf = 1e-4 m: G_I A = 0.1 J. c A = 3000 N, lost at pf = 3e-4 m: G_II A = 0.45 J.
-constexpr double area = 0.1, normal_stiffness = 2e8, shear_stiffness = 1e8;
+constexpr double area = 0.1;
 
 JointLaw soft() {
   JointLaw law{2e9, 1e9, 0.5, 3e4, 2e4, true};

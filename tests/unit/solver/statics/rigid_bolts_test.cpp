@@ -21,7 +21,6 @@ using test_support::joint;
 using test_support::LimitScene;
 using test_support::rock;
 using test_support::tangent_of;
-using test_support::tilted_box;
 
 constexpr double tolerance = 1e-3;
 

@@ -45,7 +45,7 @@ TEST_F(NewScene, EachIsGoodAlsoWithWhatItsCommentsOffer) {
   for (const StartingScene& scene : starting_scenes()) {
     const std::string kind(scene.kind);
     ASSERT_EQ(write(kind), exit_status::done) << faults_.str();
-    EXPECT_THAT(printed_.str(), HasSubstr("ashlar run " + (folder_ / (kind + ".toml")).string()));
+    EXPECT_THAT(printed_.str(), HasSubstr("ashlar run '" + (folder_ / (kind + ".toml")).string() + "'"));
     const std::string text = read_text(folder_ / (kind + ".toml"));
     EXPECT_TRUE(text.starts_with("#:schema scene.schema.json\n"));
     // Optional parts: commented lines of TOML.
