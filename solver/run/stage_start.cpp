@@ -86,7 +86,7 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
     for (const PointResponse& response : record.responses) in_springs += response.energy();
     state.records.push_back(std::move(record));
   }
-  // Those of this stage are installed where the blocks are now.
+  // Bolts of this stage are installed where the blocks are now.
   state.bolts = end.run.bolts;
   commit_bolts(state);
   in_springs += install_bolts(run.system, state) + energy_of_ties(run);
