@@ -25,7 +25,7 @@ wedge           wedge               --frame 50 --from 1,-0.2,0.5 --no-arrows
 rock_slope      rock_slope          --frame 18 --from -1,-0.35,0.45 --contacts none
 tunnel_roof     tunnel_roof         --from 0.15,-1,0.1 --contacts none
 bolted_roof     bolted_roof         --from 0.15,-1,0.1 --contacts none
-shaken_slope    shaken_slope        --frame 9 --from 0.4,-1,0.3 --color velocity --frame-range --contacts none
+shaken_slope    shaken_slope        --frame 9 --from 0.4,-1,0.3 --color velocity --frame-range --contacts none --without supports
 arch_stands     arch_stands         --from 0.1,-1,0.1 --color stone --thrust-line --contacts none
 arch_collapses  arch_collapses      --frame 55 --from 0.1,-1,0.1 --frame-range --zoom 1.3
 columns         columns             --frame 36 --from 0.3,-1,0.2 --frame-range --contacts none
