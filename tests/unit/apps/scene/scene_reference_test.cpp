@@ -120,7 +120,8 @@ std::set<std::string> known_keys() {
   for (const std::string header :
        {"[analysis]\n", "[contact]\n", "[[joint]]\n", "[[material]]\n", "[[block]]\n", "[[block.fix]]\n",
         "[[block.load]]\n", "[[masonry]]\n", "[[assign]]\n", "[[cut]]\n", "[[load]]\n", "[[bolt]]\n",
-        "[[prop]]\n", "[[water]]\n", "[initial_stress]\n", "[[boundary]]\n", "[[measure]]\n", "[[stage]]\n", "[output]\n"})
+        "[[prop]]\n", "[[water]]\n", "[initial_stress]\n", "[[boundary]]\n", "[[measure]]\n", "[[stage]]\n",
+        "[output]\n"})
     for (std::size_t at = 0; (at = text.find(header, at)) != std::string::npos;)
       text.insert(at += header.size(), "unknown = 0\n");
   for (std::size_t at = 0; (at = text.find("{ ", at)) != std::string::npos; at += 2)
@@ -156,8 +157,8 @@ TEST(SceneReference, NamesEveryKeyAndNoOther) {
 
 // "block.fix.point" as --set takes it: "block.0.fix.0.point".
 std::string path_in(std::string path, int block) {
-  for (const std::string list :
-       {"joint.", "material.", "cut.", "load.", "bolt.", "prop.", "water.", "boundary.", "measure.", "assign.", "stage."})
+  for (const std::string list : {"joint.", "material.", "cut.", "load.", "bolt.", "prop.", "water.",
+                                 "boundary.", "measure.", "assign.", "stage."})
     if (path.starts_with(list)) path.insert(list.size(), "0.");
   if (path.starts_with("block.")) path.insert(6, fmt::format("{}.", block));
   if (path.starts_with("masonry.")) path.insert(8, fmt::format("{}.", block));
