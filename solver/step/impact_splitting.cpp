@@ -13,7 +13,6 @@
 namespace ashlar {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;

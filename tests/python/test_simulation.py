@@ -209,20 +209,6 @@ def test_removed_blocks_do_not_answer():
             answer()
 
 
-@pytest.mark.parametrize("order, estimate", [(1, 0.5), (2, 0.0)])
-def test_the_error_of_orders_is_estimated(order, estimate):
-    """A bar hangs in its own weight: order 1 has 3/4 of the strain energy, order 2 all of it."""
-    bar = ashlar.Scene.from_dict({
-        "analysis": {"end_time": 1e-3, "time_step": 1e-3, "initial_state": "equilibrium"},
-        "material": [{"name": "m", "density": 2500, "young_modulus": 1e7, "poisson_ratio": 0}],
-        "block": [{"name": "bar", "material": "m", "order": order, "box": {"min": [0, 0, 0], "max": [1, 1, 2]},
-                   "fix": [{"plane": {"point": [0, 0, 2], "normal": [0, 0, 1]}}]}]})
-    sim = bar.simulation()
-    sim.run()
-    assert sim.error["estimate"] == pytest.approx(estimate, abs=1e-3)
-    assert [block["block"] for block in sim.error["blocks"]] == (["bar"] if order == 1 else [])
-
-
 def test_the_summary_tells_the_stages(tmp_path):
     sim = staged().simulation()
     sim.run()

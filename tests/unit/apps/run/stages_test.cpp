@@ -324,5 +324,26 @@ TEST_F(Stages, FaultsAreToldAtTheirKeys) {
       HasSubstr(":31:43: error: time_step is longer than the analysis (5)"));
 }
 
+// The lower cube shortens by rho g h^2 / 2E = 1e-5 m before the upper one is added, tied to its top.
+TEST_F(Stages, ATieBeginsWithoutAGap) {
+  const std::string added = R"(
+[[joint]]
+blocks = ["low", "high"]
+tied = true
+[[stage]]
+name = "settle"
+analysis = { type = "static" }
+[[stage]]
+name = "build"
+add = ["high"]
+analysis = { type = "static" }
+)";
+  scene(stack + added);
+  EXPECT_EQ(run("settled"), exit_status::failed);
+  EXPECT_THAT(faults_, HasSubstr("block high is added with a tie to block low, which has moved"));
+  EXPECT_EQ(run("weightless", {"--set", "stage.settle.analysis.gravity=[0, 0, 0]"}), exit_status::done)
+      << faults_;
+}
+
 }  // namespace
 }  // namespace ashlar

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <ostream>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/step/impact.hpp"

@@ -63,6 +63,7 @@ TEST_F(NewScene, EachIsGoodAlsoWithWhatItsCommentsOffer) {
 TEST_F(NewScene, NothingElseIsReplaced) {
   EXPECT_EQ(write("slop"), exit_status::bad_input);
   EXPECT_THAT(faults_.str(), HasSubstr("unknown kind of scene (slop), did you mean slope?"));
+  EXPECT_EQ(new_command({"wall", "-"}, printed_, faults_), exit_status::bad_input);
   write_text(folder_ / "wall.toml", "mine");
   EXPECT_EQ(write("wall"), exit_status::bad_input);
   EXPECT_EQ(read_text(folder_ / "wall.toml"), "mine");

@@ -90,6 +90,14 @@ TEST_F(Sweep, UsualValuesAreTimeAndMeasures) {
   EXPECT_THAT(lines("t.csv").at(1), HasSubstr("completed,0.05,"));
 }
 
+TEST_F(Sweep, APictureWithoutAFolderIsRefusedBeforeTheRuns) {
+  EXPECT_EQ(
+      sweep({"--vary", "contact.friction_angle=20,30", "--picture", (folder_ / "no" / "p.svg").string()}),
+      exit_status::bad_input);
+  EXPECT_THAT(faults_, HasSubstr("its folder does not exist"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.csv"));
+}
+
 TEST_F(Sweep, DrawsOneValueAgainstTheKeys) {
   const std::filesystem::path picture = folder_ / "p.svg";
   ASSERT_EQ(sweep({"--vary", "contact.friction_angle=20,30", "--vary", "analysis.end_time=0.1,0.2", "--value",

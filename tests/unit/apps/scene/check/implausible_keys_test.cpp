@@ -26,7 +26,7 @@ std::vector<std::string> warnings(const std::string& text, const std::vector<std
   return result;
 }
 
-TEST(DoubtfulKeys, AnglesBelowOneDegree) {
+TEST(ImplausibleKeys, AnglesBelowOneDegree) {
   EXPECT_THAT(warnings(sample(), {"contact.friction_angle=0.6"}),
               ElementsAre(HasSubstr(
                   "warning: friction_angle is in degrees (0.6): tan(0.6 deg) = 0.01; a coefficient of 0.6 "
@@ -37,13 +37,13 @@ TEST(DoubtfulKeys, AnglesBelowOneDegree) {
   EXPECT_THAT(warnings(sample(), {"contact.friction_angle=1"}), IsEmpty());
 }
 
-TEST(DoubtfulKeys, NoFrictionAnywhere) {
+TEST(ImplausibleKeys, NoFrictionAnywhere) {
   EXPECT_THAT(warnings(sample_with(5, "")), ElementsAre(HasSubstr(":4:2: warning: no friction anywhere")));
   EXPECT_THAT(warnings(sample_with(5, "friction_angle = 0")), IsEmpty());
   EXPECT_THAT(warnings(sample_with(5, ""), {"joint.0.friction_angle=20"}), IsEmpty());
 }
 
-TEST(DoubtfulKeys, GravityUpwards) {
+TEST(ImplausibleKeys, GravityUpwards) {
   EXPECT_THAT(warnings(sample(), {"analysis.gravity=[0, 0, 9.81]"}),
               ElementsAre(HasSubstr("warning: gravity points upwards ([0, 0, 9.81])")));
   EXPECT_THAT(warnings(sample(), {"analysis.gravity=[9.81, 0, 1]"}), IsEmpty());
@@ -54,7 +54,7 @@ TEST(DoubtfulKeys, GravityUpwards) {
               IsEmpty());
 }
 
-TEST(DoubtfulKeys, MeshesInMillimetres) {
+TEST(ImplausibleKeys, MeshesInMillimetres) {
   const std::string scan =
       "[[block]]\nname = \"scan\"\nmaterial = \"rock\"\nmesh = { file = \"scan.off\" }\n";
   EXPECT_THAT(warnings(sample() + scan),
@@ -64,11 +64,21 @@ TEST(DoubtfulKeys, MeshesInMillimetres) {
   EXPECT_THAT(warnings(sample() + scaled), IsEmpty());
 }
 
-TEST(DoubtfulKeys, AVelocityThatIsASlipIsNamedAsOne) {
+TEST(ImplausibleKeys, AVelocityThatIsASlipIsNamedAsOne) {
   EXPECT_THAT(warnings(sample(), {"block.A.velocity=[0, 0, -1e4]", "analysis.time_step=1e-5"}),
               ElementsAre(HasSubstr(
                   "--set block.A.velocity=[0, 0, -1e4]: warning: velocity is large (1e+04 m/s at the "
                   "fastest point of block \"A\")")));
+}
+
+TEST(ImplausibleKeys, TiesUnderStressOfTheGround) {
+  const auto told = [](const std::string& overrides) {
+    return warnings(sample() + "[initial_stress]\nk0 = 0.5\nsurface = 10\n",
+                    {"joint.0.tied=true", overrides});
+  };
+  const auto ties = HasSubstr("ties begin without the stress of the ground");
+  EXPECT_THAT(told("analysis.initial_state=\"as-placed\""), ::testing::Contains(ties));
+  EXPECT_THAT(told("analysis.initial_state=\"static\""), ::testing::Not(::testing::Contains(ties)));
 }
 
 }  // namespace
