@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "apps/results/folder/run_checkpoint.hpp"
+#include "apps/results/tables/measure_goals.hpp"
+#include "apps/run/accuracy_choice.hpp"
 #include "apps/run/answer_search.hpp"
 #include "apps/run/answer_summary.hpp"
 #include "apps/run/checkpoint_saver.hpp"
@@ -78,6 +80,7 @@ bool Run::step() {
 }
 
 void Run::prepare_piece() {
+  if (!chosen_ && !choose_accuracy()) return;
   if (!started_) {
     if (!start_statically()) return;
     started_ = true;
@@ -97,6 +100,34 @@ void Run::prepare_piece() {
   earlier_.reset();
   if (manner_.keeps_history) add_row();
   clock_.note_setup();
+}
+
+/// @return false if the run has ended with it
+bool Run::choose_accuracy() {
+  if (whole().analysis.accuracy && !earlier_) {
+    std::optional<AccuracyState> choice;
+    try {
+      choice = choose_for_accuracy(*scene_, manner_.threads, [this] { return observers_.go_on(); });
+      if (choice) {
+        present_ = with_choice(*scene_, *choice);
+        built_ = built_or_thrown(*present_, manner_.threads);
+      }
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      message_ = fmt::format("no orders and steps could be chosen: {}", fault_text(error));
+      status_ = RunStatus::failed;
+      return false;
+    }
+    if (!choice) {
+      message_ = "interrupted while orders and steps were chosen";
+      status_ = RunStatus::interrupted;
+      return false;
+    }
+    accuracy_ = std::move(*choice);
+  }
+  chosen_ = true;
+  return true;
 }
 
 /// @return false if the run has ended with it
@@ -182,6 +213,8 @@ void Run::take_step() {
     if (!observers_.go_on()) return interrupt();
     StepStatus taken = StepStatus::accepted;
     try {
+      if (whole().analysis.automatic_step)
+        choose_step(simulation, motion_request(scene()), goals_of_measures(), accuracy_.motion);
       taken = simulation.step(end_time);
     } catch (const std::bad_alloc&) {
       throw;
@@ -195,9 +228,14 @@ void Run::take_step() {
           fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
                       simulation.steps() + 1, simulation.time(), last.step, reason_of(last, simulation)));
     }
+    if (whole().analysis.automatic_step) note_step(simulation, accuracy_.motion);
     if (!accept_step()) return;
   }
   if (simulation.reached(end_time)) end_stage(RunStatus::completed, "");
+}
+
+GoalValues Run::goals_of_measures() const {
+  return [this](const Simulation& now) { return goals_of(now, measures_); };
 }
 
 void Run::take_iteration() {

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/results/folder/accuracy_state.hpp"
 #include "apps/results/folder/contact_changes.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/folder/result_folder.hpp"
@@ -146,6 +147,10 @@ class Run {
   [[nodiscard]] LargestValues largest() const;
   /// Errors of the orders of blocks: of a dynamic run at present, of a static analysis in equilibrium. Empty: others
   [[nodiscard]] std::vector<OrderError> order_errors() const;
+  /// Choices for analysis.accuracy; null: the scene has none, or the run has not begun
+  [[nodiscard]] const AccuracyState* accuracy() const {
+    return chosen_ && whole().analysis.accuracy ? &accuracy_ : nullptr;
+  }
   /// summary.json, with the answer of a search; status interrupted if the run has not ended.
   [[nodiscard]] std::string summary() const;
   /// The same of a record. @param frames written so far
@@ -169,12 +174,14 @@ class Run {
 
   Run(const std::shared_ptr<const LoadedScene>& scene, const RunManner& manner);
   void prepare_piece();
+  bool choose_accuracy();
   bool start_statically();
   bool search_piece();
   void advance();
   bool begin_next_stage();
   void reset_displacement();
   void take_step();
+  [[nodiscard]] GoalValues goals_of_measures() const;
   void take_iteration();
   void draw_onset();
   bool accept_step();
@@ -196,6 +203,8 @@ class Run {
   BuiltSimulation built_;
   std::vector<Measure> measures_;
   Phase phase_ = Phase::preparing;
+  bool chosen_ = false;                     ///< orders and sub-faces of a scene with an accuracy are known
+  AccuracyState accuracy_;                  ///< of a scene with an accuracy
   bool started_ = false;                    ///< the initial equilibrium, if one is required, is known
   std::unique_ptr<RunCheckpoint> earlier_;  ///< until the run has begun; null: none
   std::unique_ptr<AnswerSearch> search_;    ///< while it runs

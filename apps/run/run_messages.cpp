@@ -76,8 +76,15 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
 /// Warns of orders too low for the deformation of their blocks in equilibrium. In motion the estimate is that of one
 /// moment, which an impact makes large; it is in the summary.
 void warn_of_order(const Run& run, std::ostream& err) {
-  if (run.status() != RunStatus::equilibrium) return;
   const Simulation& simulation = run.simulation();
+  if (run.accuracy() != nullptr) {
+    if (const std::string advice = accuracy_advice(run.whole(), simulation, *run.accuracy()); !advice.empty())
+      err << fmt::format(
+          "ashlar: warning: the estimated error is {:.2g}, more than the accuracy of {:.2g}: {}\n",
+          run.accuracy()->estimate(), *run.whole().analysis.accuracy, advice);
+    return;
+  }
+  if (run.status() != RunStatus::equilibrium) return;
   const std::vector<OrderError> errors = run.order_errors();
   const std::optional<OrderError> coarse = coarse_block(simulation, errors);
   if (!coarse) return;

@@ -10,6 +10,7 @@
 #include "apps/results/folder/run_summary.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
+#include "apps/run/accuracy_choice.hpp"
 #include "apps/run/answer_search.hpp"
 #include "apps/run/answer_summary.hpp"
 #include "apps/run/checkpoint_saver.hpp"
@@ -108,6 +109,13 @@ void Run::resume(RunCheckpoint checkpoint) {
     present_ = stage_scene(scene_, checkpoint.stages.size());
     built_ = built_or_thrown(*present_, manner_.threads);
   }
+  if (whole().analysis.accuracy) {
+    accuracy_ = checkpoint.accuracy;
+    chosen_ = true;
+    present_ = with_choice(*scene_, accuracy_);
+    built_ = built_or_thrown(*present_, manner_.threads);
+    if (accuracy_.motion.time_step > 0.0) built_.simulation.set_time_step(accuracy_.motion.time_step);
+  }
   built_.simulation.restore(checkpoint.simulation);
   const SceneAnalysis& analysis = scene().analysis;
   if (simulation().time() - analysis.end_time > time_rounding(analysis.time_step, analysis.end_time))
@@ -128,7 +136,7 @@ bool Run::saved() const {
 }
 
 RunCheckpoint Run::checkpoint() const {
-  return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_};
+  return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_, accuracy_};
 }
 
 LargestValues Run::largest() const {
@@ -157,7 +165,9 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
   }
   auto summary = run_summary(whole(), identity_, built_,
                              {status, message_, clock_.seconds(), frames, largest, std::move(begun)});
-  if (const std::vector<OrderError> errors = order_errors(); !errors.empty())
+  if (accuracy() != nullptr)
+    summary["error"] = accuracy_summary(whole(), simulation(), *accuracy());
+  else if (const std::vector<OrderError> errors = order_errors(); !errors.empty())
     summary["error"] = error_summary(simulation(), errors);
   add_answer(summary, answer_, whole().analysis, simulation());
   return json_text(summary, 2) + "\n";

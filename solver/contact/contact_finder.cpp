@@ -371,6 +371,14 @@ void ContactFinder::renew(int block, const BlockModel& model, PairHistories& his
   }
 }
 
+void ContactFinder::set_chord_tolerance(double tolerance, PairHistories& histories) {
+  settings_.search.chord_tolerance = tolerance;
+  for (auto& [blocks, pair] : histories) {
+    pair.clearance.reset();
+    pair.cache.reset();
+  }
+}
+
 FinderState ContactFinder::state() const {
   FinderState state{tracks_, {}, counts_};
   for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.division());

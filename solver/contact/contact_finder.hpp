@@ -140,6 +140,8 @@ class ContactFinder {
   void renew(int block, const BlockModel& model, PairHistories& histories);
   /// Updates the coordinates for a new step of an incremental block.
   void start_step(int block) { surfaces_[static_cast<std::size_t>(block)].start_step(); }
+  /// Changes SearchSettings::chord_tolerance from the next search on; contacts are detected again. @param tolerance m, > 0
+  void set_chord_tolerance(double tolerance, PairHistories& histories);
 
   /// Expected motion of points on the blocks' surfaces in a step under their present velocity and gravity.
   /// @param states must outlive the result

@@ -16,11 +16,8 @@ int largest_order(const BlockModel& block) {
   return block.tangent_turns() ? PolynomialBasis::max_order : StVenantKirchhoff::max_order;
 }
 
-/// A solution that is even or odd has nothing in the next order: low orders look at two.
-int further_orders(const BlockModel& block) {
-  constexpr int low_order = 4;
-  return block.order() <= low_order ? 2 : 1;
-}
+/// A solution that is even or odd has nothing in the next order.
+constexpr int further_orders = 2;
 
 double relative_of(double lacks, double energy) {
   return lacks > 0.0 ? std::sqrt(lacks / (energy + lacks)) : 0.0;
@@ -69,8 +66,7 @@ Eigen::VectorXd higher_part(const BlockModel& low, const BlockModel& high, const
 OrderError error_of(const Simulation& simulation, int index, const PointForces& contact) {
   const BlockModel& block = simulation.blocks()[at(index)];
   const BlockState& state = simulation.states()[at(index)];
-  const BlockModel high =
-      block.with_order(std::min(block.order() + further_orders(block), largest_order(block)));
+  const BlockModel high = block.with_order(std::min(block.order() + further_orders, largest_order(block)));
   const Eigen::MatrixX3d position = change_order(block, state, high).state.position;
   const ElasticResponse elastic = high.elastic(position);
   const Vector3 gravity = simulation.system().settings().gravity_at(simulation.time());

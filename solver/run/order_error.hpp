@@ -1,7 +1,7 @@
 // Error of a block's order, from the residual on the functions of the next orders.
 //
-// With u of order n and K the stiffness of order m at the present state, m = n + 2 up to order 4 (an even or odd
-// solution has nothing in the next order), otherwise n + 1, the residual of the present forces
+// With u of order n and K the stiffness of order m at the present state, m = n + 2 (an even or odd solution has
+// nothing in the next order) or the largest order, the residual of the present forces
 //     r = F_external + F_contact - F_elastic(u)
 // is zero on the functions of order n, but for inertia, which is orthogonal to the others. Then
 //     eta^2 = r' K^-1 r                                              r on the functions of degree n + 1 to m alone

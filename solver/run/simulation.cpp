@@ -183,6 +183,20 @@ DroppedByOrder Simulation::change_order(int block, int order) {
   return ashlar::change_order(context(), block, order);
 }
 
+void Simulation::set_time_step(double step) {
+  if (!(step > 0.0)) throw std::invalid_argument("a time step is above zero");
+  system_.set_time_step(step);
+  state_.next_step = step;
+}
+
+void Simulation::set_chord_tolerance(double tolerance) {
+  if (!(tolerance > 0.0)) throw std::invalid_argument("a chord tolerance is a length above zero");
+  wake_all(context());
+  system_.set_chord_tolerance(tolerance);
+  contacts_.finder().set_chord_tolerance(tolerance, state_.pairs);
+  state_.statics = StaticState{};
+}
+
 ContactExplanation Simulation::explain_contacts(int a, int b) const {
   return ashlar::explain_contacts(system_, state_, contacts_.finder().state(), a, b);
 }

@@ -127,6 +127,14 @@ class Simulation {
   /// @throws std::invalid_argument for other blocks or an order that the block cannot have: nothing changes then
   DroppedByOrder change_order(int block, int order);
 
+  /// Changes settings.time_step between two steps. It is not part of a snapshot. @param step s
+  /// @throws std::invalid_argument unless it is > 0
+  void set_time_step(double step);
+  /// Changes SearchSettings::chord_tolerance between two steps: contacts are detected again with other sub-faces, and keep
+  /// their memory. It is not part of a snapshot. A static analysis starts a new load level.
+  /// @param tolerance m. @throws std::invalid_argument unless it is > 0
+  void set_chord_tolerance(double tolerance);
+
   /// All data changed since construction (checkpoint.hpp); restore() sets them.
   [[nodiscard]] SimulationSnapshot snapshot() const;
   /// @throws std::invalid_argument if the snapshot was taken of other blocks.

@@ -84,6 +84,10 @@ class BlockSystem {
 
   /// Replaces the model of a block by one of the same solid, of another order or with quiet faces released or held.
   void replace(int block, BlockModel model);
+  /// @param step s, > 0
+  void set_time_step(double step) { settings_.time_step = step; }
+  /// @param tolerance of SearchSettings, m, > 0
+  void set_chord_tolerance(double tolerance) { settings_.search.chord_tolerance = tolerance; }
   /// Replaces the model of an incremental block by that of its next step.
   void carry_on(int block, BlockModel model);
   /// @throws std::out_of_range for a block or load that does not exist

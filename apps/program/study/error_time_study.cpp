@@ -13,6 +13,8 @@
 #include "apps/program/study/orders_study.hpp"
 #include "apps/program/study/processor_time.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/scene/model/scene_analysis.hpp"
+#include "solver/accuracy/motion_accuracy.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar {
@@ -29,6 +31,7 @@ struct Setting {
   bool springs = false;  ///< contact by springs instead of multipliers
   bool incremental = false;
   double time_step = 0.0;
+  double accuracy = 0.0;  ///< > 0: the step, or in statics the order, is chosen for it
 };
 
 SimulationSettings settings_of(const Setting& setting, const Vector3& gravity) {
@@ -45,9 +48,27 @@ BlockDefinition block_of(const Setting& setting, Polyhedron solid, const Materia
   return block;
 }
 
+const std::function<bool()> always = [] { return true; };
+const GoalValues energy_of_blocks = [](const Simulation&) { return std::vector<Goal>(); };
+
 bool goes_to(Simulation& simulation, double time) {
   while (!simulation.reached(time)) {
     if (simulation.step(time) != StepStatus::accepted) return false;
+  }
+  return true;
+}
+
+/// The same with the step chosen for an accuracy, as a run does.
+bool goes_to(Simulation& simulation, double time, double accuracy) {
+  if (accuracy == 0.0) return goes_to(simulation, time);
+  simulation.set_time_step(time / automatic_steps);
+  const std::optional<PilotRun> pilot = pilot_run(simulation, time, energy_of_blocks, always);
+  MotionAccuracyState state;
+  state.scales = pilot->scales;
+  while (!simulation.reached(time)) {
+    choose_step(simulation, {accuracy, time / 16.0, time}, energy_of_blocks, state);
+    if (simulation.step(time) != StepStatus::accepted) return false;
+    note_step(simulation, state);
   }
   return true;
 }
@@ -66,7 +87,7 @@ double incline_error(const Setting& setting) {
       scene.add(block_of(setting, Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2000, 1e8, 0.2}));
   Simulation simulation = scene.build();
   const Vector3 start = centroid(simulation, cube);
-  if (!goes_to(simulation, time)) return nan;
+  if (!goes_to(simulation, time, setting.accuracy)) return nan;
   const double way = 0.5 * gravity * time * time * (std::sin(angle) - tangent_of(20.0) * std::cos(angle));
   return std::abs((centroid(simulation, cube) - start).norm() / way - 1.0);
 }
@@ -87,7 +108,7 @@ double swelling_error(const Setting& setting) {
   SimulationSnapshot snapshot = simulation.snapshot();
   snapshot.run.states[0].velocity = amplitude * frequency * field;
   simulation.restore(snapshot);
-  if (!goes_to(simulation, 5.0 * period)) return nan;
+  if (!goes_to(simulation, 5.0 * period, setting.accuracy)) return nan;
   const PointMotion corner = simulation.blocks()[0].motion_of(simulation.states()[0], {0.5, 0.5, 0.5});
   const double strain = corner.displacement.x() / 0.5 / amplitude;
   const double rate = corner.velocity.x() / 0.5 / (amplitude * frequency);
@@ -131,7 +152,7 @@ double tumbling_error(const Setting& setting) {
   for (int axis = 0; axis < 3; ++axis) box.followed.emplace_back(half_sides[axis] * Vector3::Unit(axis));
   Simulation simulation =
       lone_block(std::move(box), {Vector3::Zero(), tumble}, settings_of(setting, Vector3::Zero()));
-  if (!goes_to(simulation, tumbling_time)) return nan;
+  if (!goes_to(simulation, tumbling_time, setting.accuracy)) return nan;
   Eigen::Matrix3d turn;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 corner = half_sides[axis] * Vector3::Unit(axis);
@@ -169,7 +190,7 @@ class Curves {
     result_.rows.push_back({static_cast<double>(problem_), static_cast<double>(result_.plot.series.size()),
                             static_cast<double>(setting.order), static_cast<double>(setting.integrator),
                             setting.springs ? 1.0 : 0.0, setting.incremental ? 1.0 : 0.0, setting.time_step,
-                            error, seconds, 0.0});
+                            error, seconds, 0.0, setting.accuracy});
   }
 
   /// @param coarsest step, in the problem's unit
@@ -182,6 +203,16 @@ class Curves {
                                      setting.springs ? ", springs" : ""));
     setting.time_step = coarsest;
     for (int k = 0; k < size_.steps; ++k, setting.time_step *= 0.5) add(setting, error_of);
+  }
+
+  /// Runs whose step, or in statics the order, is chosen.
+  void over_accuracies(int problem, Setting setting, const std::function<double(const Setting&)>& error_of) {
+    start(problem, problem == 4
+                       ? "chosen order"
+                       : fmt::format("chosen step, order {}, {}", setting.order,
+                                     integrator_names.at(static_cast<std::size_t>(setting.integrator))));
+    setting.accuracy = 0.1;
+    for (int k = 0; k < size_.accuracies; ++k, setting.accuracy *= 0.1) add(setting, error_of);
   }
 
  private:
@@ -200,7 +231,8 @@ enum Column : std::size_t {
   of_step,
   of_error,
   of_seconds,
-  of_front
+  of_front,
+  of_accuracy
 };
 
 /// Marks the runs without a faster and more accurate one. @return a sentence for each problem
@@ -220,13 +252,37 @@ std::vector<std::string> find_fronts(StudyResult& result) {
       (*row)[of_front] = 1.0;
       const double step = (*row)[of_step];
       const std::string& curve = result.plot.series[static_cast<std::size_t>((*row)[of_curve]) - 1].name;
-      const std::string chosen = problem == 4
+      const std::string chosen = (*row)[of_accuracy] > 0.0 ? fmt::format("asked {:.0e}", (*row)[of_accuracy])
+                                 : problem == 4
                                      ? fmt::format("order {}", (*row)[of_order])
                                      : fmt::format("step {:.3g}{}", step, problem == 2 ? " periods" : " s");
       front.push_back(
           fmt::format("{}, {}: {:.1e} in {:.2g} ms", curve, chosen, least, 1e3 * (*row)[of_seconds]));
     }
     sentences.push_back(fmt::format("Nothing faster has less error: {}.", fmt::join(front, "; ")));
+  }
+  return sentences;
+}
+
+double cantilever_of(const Setting& setting) {
+  return setting.accuracy == 0.0 ? cantilever_error(setting.order) : cantilever_error_for(setting.accuracy);
+}
+
+/// Compares runs with a chosen step or order with what was asked, and with the fastest of the given ones that has it.
+std::vector<std::string> compare_chosen(StudyResult& result) {
+  std::vector<std::string> sentences;
+  for (const auto& row : result.rows) {
+    const double asked = row[of_accuracy];
+    if (asked == 0.0) continue;
+    double fastest = std::numeric_limits<double>::infinity();
+    for (const auto& other : result.rows)
+      if (other[of_accuracy] == 0.0 && other[of_problem] == row[of_problem] && other[of_error] <= asked)
+        fastest = std::min(fastest, other[of_seconds]);
+    const std::string& curve = result.plot.series[static_cast<std::size_t>(row[of_curve]) - 1].name;
+    sentences.push_back(fmt::format("{}: asked {:.0e}, error {:.1e}, {:.2g} times the fastest given choice",
+                                    curve, asked, row[of_error], row[of_seconds] / fastest));
+    constexpr double most = 3.0;
+    result.holds = result.holds && row[of_error] <= most * asked;
   }
   return sentences;
 }
@@ -239,8 +295,8 @@ StudyResult study_error_time() {
 
 StudyResult study_error_time(const ErrorTimeStudySize& size) {
   StudyResult result;
-  result.columns = {"problem",     "curve",     "order", "integrator", "springs",
-                    "incremental", "time_step", "error", "seconds",    "front"};
+  result.columns = {"problem",   "curve", "order",   "integrator", "springs", "incremental",
+                    "time_step", "error", "seconds", "front",      "accuracy"};
   result.plot = {"Error of motion against run time", "seconds", "error", {}};
   result.plot.slopes = false;
   Curves curves(size, result);
@@ -265,9 +321,15 @@ StudyResult study_error_time(const ErrorTimeStudySize& size) {
   }
   curves.over_steps(3, {1, Integrator::dda, true, true}, 0.04, tumbling_error);
   curves.start(4, "one block");
-  for (int order = 1; order <= 8; ++order)
-    curves.add({order}, [](const Setting& setting) { return cantilever_error(setting.order); });
+  for (int order = 1; order <= 8; ++order) curves.add({order}, cantilever_of);
+  for (const Integrator integrator : {Integrator::dda, Integrator::average_acceleration})
+    curves.over_accuracies(1, {0, integrator}, incline_error);
+  for (const Integrator integrator : {Integrator::average_acceleration, Integrator::generalized_alpha})
+    curves.over_accuracies(2, {1, integrator}, swelling_error);
+  curves.over_accuracies(3, {0, Integrator::average_acceleration}, tumbling_error);
+  curves.over_accuracies(4, {1}, cantilever_of);
   result.findings = find_fronts(result);
+  for (std::string& sentence : compare_chosen(result)) result.findings.push_back(std::move(sentence));
   // Deformable blocks stretch as they rotate: they converge to another motion, which differs by 2e-4.
   for (const PlotSeries& series : result.plot.series) {
     if (series.name.starts_with("tumbling: order 0"))

@@ -7,8 +7,9 @@ namespace ashlar {
 
 /// Extent of the study; the tests run less of it.
 struct ErrorTimeStudySize {
-  int steps = 6;    ///< lengths of a step for each curve, each half of the one before
-  int repeats = 3;  ///< runs of each, of which the fastest counts
+  int steps = 6;       ///< lengths of a step for each curve, each half of the one before
+  int repeats = 3;     ///< runs of each, of which the fastest counts
+  int accuracies = 4;  ///< 0.1, 0.01, ... asked for
 };
 
 /// Four problems with known answers:
@@ -24,7 +25,8 @@ struct ErrorTimeStudySize {
 /// incremental, point springs, flat sub-faces) is a curve of 1 to 3.
 /// Columns: problem, curve (in the order of the picture), order, integrator (0 dda, 1 average-acceleration, 2
 /// generalized-alpha), springs and incremental (0 or 1), time step (s; in problem 2 in periods; 0: static), error,
-/// seconds (of the processor, including the construction of the scene), front (1: no faster run has a smaller error).
+/// seconds (of the processor, including the construction of the scene), front (1: no faster run has a smaller error),
+/// accuracy (> 0: the step, or the order of the cantilever, is chosen for it as by analysis.accuracy).
 /// An error that is not finite is a failed run.
 [[nodiscard]] StudyResult study_error_time();
 [[nodiscard]] StudyResult study_error_time(const ErrorTimeStudySize& size);

@@ -11,6 +11,7 @@
 
 #include "apps/program/verify/verification_blocks.hpp"
 #include "mechanics/basis/quadrature.hpp"
+#include "solver/accuracy/static_accuracy.hpp"
 
 namespace ashlar {
 namespace {
@@ -35,15 +36,21 @@ struct Solved {
 /// computed independently of this program.
 constexpr double converged_tip = -2.7131353e-3;
 
-Solved solve_cantilever(int order) {
-  const Clock clock;
+BlockDefinition cantilever(int order) {
   BlockDefinition definition =
       define_block(Polyhedron(make_box({0, -0.5, -1.5}, {8, 0.5, 1.5})), {3600, 1e10, 0.2}, order);
   definition.supports.push_back({Plane{{0, 0, 0}, {1, 0, 0}}});
-  const BlockModel block(std::move(definition));
+  return definition;
+}
+
+const Vector3 tip_of_cantilever(8, 0, 0);
+
+Solved solve_cantilever(int order) {
+  const Clock clock;
+  const BlockModel block(cantilever(order));
   const auto position = block.equilibrium({0, 0, -9.81}, 0.0);
   if (!position) throw std::runtime_error("the cantilever is not held");
-  const double tip = displacement(block, *position, {8, 0, 0}).z();
+  const double tip = displacement(block, *position, tip_of_cantilever).z();
   return {block.unknowns(), std::abs(tip / converged_tip - 1.0), clock.seconds()};
 }
 
@@ -189,6 +196,22 @@ Solved solve_smooth(int order) {
 
 double cantilever_error(int order) {
   return solve_cantilever(order).error;
+}
+
+double cantilever_error_for(double accuracy) {
+  Simulation simulation = lone_block(cantilever(1), {}, {});
+  const auto tip = [](const Simulation& now) {
+    return displacement(now.blocks()[0], now.states()[0].position, tip_of_cantilever).z();
+  };
+  AccuracyRounds rounds;
+  const StaticStatus status = find_equilibrium(
+      simulation, 1.0, {accuracy, {true}},
+      [&](const Simulation& now) {
+        return std::vector<Goal>{{"tip", {tip(now)}}};
+      },
+      rounds, [] { return true; });
+  if (status != StaticStatus::equilibrium) throw std::runtime_error("the cantilever has no equilibrium");
+  return std::abs(tip(simulation) / converged_tip - 1.0);
 }
 
 StudyResult study_orders() {

@@ -17,4 +17,7 @@ namespace ashlar {
 /// Relative error of the tip of the first problem.
 [[nodiscard]] double cantilever_error(int order);
 
+/// The same with the order chosen for an accuracy of the tip.
+[[nodiscard]] double cantilever_error_for(double accuracy);
+
 }  // namespace ashlar

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/results/folder/accuracy_state.hpp"
 #include "apps/results/folder/contact_changes.hpp"
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_outcome.hpp"
@@ -23,6 +24,7 @@ struct RunCheckpoint {
   ResultFolderState folder;
   RunSeconds seconds;
   ContactChanges changes;  ///< of static iterations of the present stage
+  AccuracyState accuracy;  ///< of a scene with an accuracy
 };
 
 /// Reason why a run cannot be continued: no checkpoint, a damaged one, or one of another scene. what() is a message

@@ -59,10 +59,18 @@ void read_support_search(TomlTableReader table, SceneAnalysis::SupportSearch& se
   table.read_number_or_auto("tolerance", search.tolerance, range::positive);
 }
 
+void read_time_step(TomlTableReader& table, SceneAnalysis& analysis) {
+  std::optional<double> step;
+  if (!table.read_number_or_auto("time_step", step, range::positive)) return;
+  analysis.automatic_step = !step;
+  analysis.time_step = step.value_or(0.0);
+}
+
 void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_choice("type", analysis.type, analysis_type_names);
   table.read_number("end_time", analysis.end_time, range::positive);
-  table.read_number("time_step", analysis.time_step, range::positive);
+  read_time_step(table, analysis);
+  table.read_number("accuracy", analysis.accuracy, range::positive_to_one);
   table.read_choice("integrator", analysis.integrator, integrator_names);
   table.read_number("spectral_radius", analysis.spectral_radius, range::zero_to_one);
   table.read_choice("formulation", analysis.formulation, formulation_names);
@@ -101,10 +109,16 @@ void complete_times(TomlTableReader& table, SceneAnalysis& analysis, bool loads_
   if (!timeless) {
     // A stage inherits [analysis].
     if (!(analysis.end_time > 0.0)) table.require("end_time");
-    if (!(analysis.time_step > 0.0)) table.require("time_step");
+    if (analysis.accuracy && !is_static(analysis) && !(analysis.time_step > 0.0)) {
+      analysis.automatic_step = true;
+      analysis.time_step = analysis.end_time / automatic_steps;
+    } else if (!(analysis.time_step > 0.0)) {
+      table.require("time_step");
+    }
     return;
   }
   if (!(analysis.end_time > 0.0)) analysis.end_time = std::max(default_static_end_time, analysis.time_step);
+  analysis.automatic_step = false;
   if (!(analysis.time_step > 0.0)) analysis.time_step = std::min(default_static_time_step, analysis.end_time);
 }
 
@@ -212,6 +226,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
                         [](const SceneAssign& later) { return later.inside && has_history(later); }));
   else
     scene.analysis = scene.stage.front().analysis;
+  keep_given_orders(scene);
   if (!has_blocks) top.error_at_table("no block (0), at least one [[block]] is needed");
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "apps/scene/check/accuracy_checks.hpp"
 #include "apps/scene/check/joint_checks.hpp"
 #include "apps/scene/check/measure_checks.hpp"
 #include "apps/scene/check/water_checks.hpp"
@@ -317,6 +318,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
                     analysis.mass_damping, most_damping_per_step,
                     most_damping_per_step / analysis.time_step));
   check_formulation(scene, diagnostics);
+  check_accuracy(scene, diagnostics);
   check_rigid_blocks(scene, diagnostics);
   check_names(scene, scene.material, "material", diagnostics);
   check_names(scene, scene.block, "block", diagnostics);

@@ -14,6 +14,8 @@ namespace ashlar {
 /// it.
 inline constexpr double default_static_end_time = 1.0;
 inline constexpr double default_static_time_step = 1e-3;
+/// Steps of a dynamic analysis from which accuracy starts.
+inline constexpr int automatic_steps = 256;
 
 /// [analysis]
 struct SceneAnalysis {
@@ -69,6 +71,10 @@ struct SceneAnalysis {
   /// s, > 0, <= end_time; required like end_time. The largest step; in statics the interval between load levels of a
   /// history, and the initial inertia of the first iteration
   double time_step = 0.0;
+  bool automatic_step =
+      false;  ///< dynamic, with accuracy: not given, or "auto"; time_step is that of the pilot
+  /// 0 to 1: orders, sub-faces and the step that are not given are chosen for it (solver/accuracy)
+  std::optional<double> accuracy;
   Integrator integrator = Integrator::dda;
   double spectral_radius = 0.8;  ///< 0 to 1; only used by generalized-alpha
   Formulation formulation = Formulation::total;

@@ -66,10 +66,11 @@ struct SceneArray {
 
 /// [[block]]
 struct SceneBlock {
-  std::string name;      ///< unique; required
-  std::string material;  ///< name of a [[material]]; only a fixed block may leave it out (empty)
-  int order = 1;         ///< 0 to 12; 0: rigid
-  SceneShape shape;      ///< exactly one of box, mesh, hull, sphere
+  std::string name;              ///< unique; required
+  std::string material;          ///< name of a [[material]]; only a fixed block may leave it out (empty)
+  int order = 1;                 ///< 0 to 12; 0: rigid
+  bool automatic_order = false;  ///< analysis.accuracy chooses a higher one: it is "auto", or not given
+  SceneShape shape;              ///< exactly one of box, mesh, hull, sphere
   std::optional<SceneRotation> rotate;
   Vector3 translate = Vector3::Zero();         ///< m, after rotate
   Vector3 velocity = Vector3::Zero();          ///< m/s
@@ -88,6 +89,7 @@ struct SceneAssign {
   std::optional<SceneRegion> inside;  ///< only those of `blocks` inside
   std::optional<std::string> material;
   std::optional<int> order;
+  bool automatic_order = false;  ///< order = "auto", which `order` is empty for
   std::optional<bool> fixed;
   std::optional<Vector3> velocity;
   std::optional<Vector3> angular_velocity;

@@ -54,11 +54,12 @@ Json to_json(const SceneAnalysis::SupportSearch& search) {
 Json to_json(const SceneAnalysis& analysis) {
   Json json = {{"type", name_of(analysis_type_names, analysis.type)},
                {"end_time", analysis.end_time},
-               {"time_step", analysis.time_step},
+               {"time_step", analysis.automatic_step ? Json("auto") : Json(analysis.time_step)},
                {"integrator", name_of(integrator_names, analysis.integrator)},
                {"spectral_radius", analysis.spectral_radius},
                {"formulation", name_of(formulation_names, analysis.formulation)},
                {"initial_state", name_of(initial_state_names, analysis.initial_state)}};
+  if (analysis.accuracy) json["accuracy"] = *analysis.accuracy;
   add_gravity(json, analysis);
   json["solver"] = name_of(solver_names, analysis.solver);
   json["mass_damping"] = analysis.mass_damping;

@@ -123,7 +123,8 @@ class Assigner {
       written(fmt::format("block.{}.{}", k, key), fmt::format("assign.{}.{}", index, key));
     };
     set("material", block.material, given.material);
-    set("order", block.order, given.order);
+    set("order", block.order, given.automatic_order ? std::optional(1) : given.order);
+    if (given.order || given.automatic_order) block.automatic_order = given.automatic_order;
     set("fixed", block.fixed, given.fixed);
     set("velocity", block.velocity, given.velocity);
     set("angular_velocity", block.angular_velocity, given.angular_velocity);
@@ -173,7 +174,7 @@ SceneAssign read_assignment(TomlTableReader& table) {
   };
   read(assign.material, std::string(),
        [&](std::string& value) { return table.read_name("material", value); });
-  read(assign.order, 1, [&](int& value) { return table.read_integer("order", value, 0, 12); });
+  assign.automatic_order = table.read_integer_or_auto("order", assign.order, 0, 12) && !assign.order;
   read(assign.fixed, false, [&](bool& value) { return table.read_bool("fixed", value); });
   read(assign.velocity, Vector3(), [&](Vector3& value) { return table.read_vector("velocity", value); });
   read(assign.angular_velocity, Vector3(),

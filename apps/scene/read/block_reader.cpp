@@ -291,13 +291,28 @@ void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block) {
                            value.x(), value.y(), value.z()));
 }
 
+void read_order(TomlTableReader& table, SceneBlock& block) {
+  std::optional<int> order;
+  if (!table.read_integer_or_auto("order", order, 0, 12) && table.given("order")) return;
+  block.automatic_order = !order;
+  block.order = order.value_or(1);
+}
+
+void keep_given_orders(Scene& scene) {
+  if (scene.analysis.accuracy) return;
+  for (std::size_t k = 0; k < scene.block.size(); ++k) {
+    SceneBlock& block = scene.block[k];
+    if (!scene.places.contains(fmt::format("block.{}.order", k))) block.automatic_order = false;
+  }
+}
+
 SceneBlock read_block(TomlTableReader& table) {
   SceneBlock block;
   table.require("name");
   table.read_name("name", block.name);
   table.read_bool("fixed", block.fixed);
   table.read_name("material", block.material);
-  table.read_integer("order", block.order, 0, 12);
+  read_order(table, block);
   block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name),
                            MeshKeys::mending);
   if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);

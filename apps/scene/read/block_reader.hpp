@@ -12,6 +12,12 @@ namespace ashlar {
 /// faulty points and planes are not finite.
 [[nodiscard]] SceneBlock read_block(TomlTableReader& table);
 
+/// Reads `order`. A block without one has an automatic order until keep_given_orders.
+void read_order(TomlTableReader& table, SceneBlock& block);
+
+/// Without analysis.accuracy, blocks whose order is not given have order 1.
+void keep_given_orders(Scene& scene);
+
 /// Reads [[block.fix]] and [[block.load]], which other tables have too.
 [[nodiscard]] SceneFix read_fix(TomlTableReader& table);
 [[nodiscard]] SceneLoad read_load(TomlTableReader& table);

@@ -1,4 +1,5 @@
 #include "apps/scene/read/masonry.hpp"
+#include "apps/scene/read/block_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ std::vector<SceneBlock> read_masonry(TomlTableReader& table) {
   for (const char* key : {"name", "kind"}) table.require(key);
   table.read_name("name", common.name);
   table.read_name("material", common.material);
-  table.read_integer("order", common.order, 0, 12);
+  read_order(table, common);
   PieceReader read = nullptr;
   if (!table.read_choice("kind", read, kinds)) return {};
   std::vector<SceneBlock> blocks;

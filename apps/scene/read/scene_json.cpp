@@ -190,7 +190,7 @@ Json list_to_json(const std::vector<Entry>& entries) {
 Json to_json(const SceneBlock& block) {
   Json json = {{"name", block.name}};
   if (!block.material.empty()) json["material"] = block.material;
-  json["order"] = block.order;
+  json["order"] = block.automatic_order ? Json("auto") : Json(block.order);
   std::visit(ShapeToJson{json}, block.shape);
   if (block.rotate)
     json["rotate"] = {{"axis", to_json(block.rotate->axis)},
@@ -318,6 +318,7 @@ Json assignments_to_pieces(const Scene& scene) {
     for (const std::size_t k : pieces[index]) json["blocks"].push_back(pattern_of(scene.block[k].name));
     if (given.material) json["material"] = *given.material;
     if (given.order) json["order"] = *given.order;
+    if (given.automatic_order) json["order"] = "auto";
     if (given.fixed) json["fixed"] = *given.fixed;
     if (given.velocity) json["velocity"] = to_json(*given.velocity);
     if (given.angular_velocity) json["angular_velocity"] = to_json(*given.angular_velocity);

@@ -156,6 +156,21 @@ bool TomlTableReader::read_integer(std::string_view key, std::optional<int>& res
   return true;
 }
 
+bool TomlTableReader::read_integer_or_auto(std::string_view key, std::optional<int>& result, int low,
+                                           int high) {
+  note(key, {.kind = KeyForm::Kind::automatic});
+  note(key, whole_numbers(KeyForm::Kind::whole_number, low, high));
+  const toml::node* node = find(key);
+  if (!node) return false;
+  if (const auto* text = node->as_string(); text && **text == "auto") {
+    result.reset();
+    return true;
+  }
+  const std::optional<int> number = value(*node, key).whole_number(low, high, " or \"auto\"");
+  if (number) result = number;
+  return number.has_value();
+}
+
 std::optional<std::size_t> TomlTableReader::read_word(std::string_view key,
                                                       const std::vector<std::string>& words) {
   const toml::node* node = find(key);

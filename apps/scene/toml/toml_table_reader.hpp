@@ -67,6 +67,8 @@ class TomlTableReader {
   bool read_number_or_auto(std::string_view key, std::optional<double>& result, const NumberRange& range);
   bool read_integer(std::string_view key, int& result, int low, int high);
   bool read_integer(std::string_view key, std::optional<int>& result, int low, int high);
+  /// "auto" makes the result empty.
+  bool read_integer_or_auto(std::string_view key, std::optional<int>& result, int low, int high);
   /// An array of some whole numbers.
   bool read_integers(std::string_view key, std::vector<int>& result, int low, int high);
   bool read_vector(std::string_view key, Vector3& result);

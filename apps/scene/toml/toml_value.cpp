@@ -48,8 +48,8 @@ std::optional<double> TomlValue::number(const NumberRange& range) const {
   return std::nullopt;
 }
 
-std::optional<int> TomlValue::whole_number(int low, int high) const {
-  const std::string words = whole_number_words(low, high);
+std::optional<int> TomlValue::whole_number(int low, int high, std::string_view other) const {
+  const std::string words = whole_number_words(low, high).append(other);
   const bool formula = !node_.is_number() && TomlReading::has_number(node_);
   if (!node_.is_integer() && !formula) {
     wrong_type(words);

@@ -27,7 +27,8 @@ class TomlValue {
   /// @param words description of the allowed values
   [[nodiscard]] std::optional<double> finite_number(std::string_view words) const;
   [[nodiscard]] std::optional<double> number(const NumberRange& range) const;
-  [[nodiscard]] std::optional<int> whole_number(int low, int high) const;
+  /// @param other words for other values of the key: " or ..."
+  [[nodiscard]] std::optional<int> whole_number(int low, int high, std::string_view other = {}) const;
   /// Index of the word.
   [[nodiscard]] std::optional<std::size_t> word(const std::vector<std::string>& words) const;
   /// Finite numbers. @param words description of the row

@@ -8,11 +8,11 @@ namespace ashlar {
 namespace {
 
 TEST(ErrorTimeStudy, HalfTheStepIsAQuarterOfTheErrorOfWhatTumbles) {
-  const StudyResult result = study_error_time({2, 1});
-  EXPECT_TRUE(result.holds);
-  ASSERT_EQ(result.columns.size(), 10U);
-  // Curves of two steps: seven, four and six, and eight orders.
-  ASSERT_EQ(result.rows.size(), 2U * 17U + 8U);
+  const StudyResult result = study_error_time({2, 1, 2});
+  EXPECT_TRUE(result.holds) << "chosen runs meet what is asked";
+  ASSERT_EQ(result.columns.size(), 11U);
+  // Curves of two steps: seven, four and six, and eight orders; six of two accuracies.
+  ASSERT_EQ(result.rows.size(), 2U * 17U + 8U + 2U * 6U);
   for (const PlotSeries& series : result.plot.series) {
     ASSERT_EQ(series.x.size(), series.y.size());
     if (series.name == "tumbling: order 0, dda" || series.name == "swelling: order 1, average") {

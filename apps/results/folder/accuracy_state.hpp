@@ -1,0 +1,37 @@
+// Choices for analysis.accuracy and their estimated errors, for checkpoints and the summary.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/scene/model/scene.hpp"
+#include "solver/accuracy/motion_accuracy.hpp"
+
+namespace ashlar {
+
+struct AccuracyState {
+  std::map<int, int> orders;     ///< of blocks with an automatic order
+  double chord_tolerance = 0.0;  ///< m; 0: that of the scene
+  int rounds = 0;                ///< analyses that the choice needed
+  double order_error = 0.0;      ///< relative, see AccuracyEstimate
+  double sub_face_error = 0.0;
+  std::vector<double> goals;   ///< of each measure, of both
+  int slow_block = -1;         ///< see AccuracyEstimate
+  MotionAccuracyState motion;  ///< of a run whose step is automatic
+
+  /// Sum of all, relative.
+  [[nodiscard]] double estimate() const;
+};
+
+/// `error` of summary.json: accuracy, estimate, by { order, sub_faces, step }, measures, orders { order: blocks },
+/// advice.
+[[nodiscard]] nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& simulation,
+                                                      const AccuracyState& state);
+
+/// How to come closer to the accuracy; empty: it is met.
+[[nodiscard]] std::string accuracy_advice(const Scene& scene, const Simulation& simulation,
+                                          const AccuracyState& state);
+
+}  // namespace ashlar

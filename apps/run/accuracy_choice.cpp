@@ -1,0 +1,138 @@
+#include "apps/run/accuracy_choice.hpp"
+
+#include <algorithm>
+
+#include "apps/results/tables/measure_goals.hpp"
+#include "apps/run/run_setup.hpp"
+#include "apps/scene/build/initial_state.hpp"
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+AccuracyRequest request_of(const Scene& scene) {
+  AccuracyRequest request{.accuracy = *scene.analysis.accuracy,
+                          .orders = {},
+                          .sub_faces = !scene.contact.chord_tolerance && !scene.contact.subdivisions};
+  for (const SceneBlock& block : scene.block) request.orders.push_back(block.automatic_order && !block.fixed);
+  return request;
+}
+
+void take_orders(const Scene& scene, const Simulation& simulation, AccuracyState& choice) {
+  for (std::size_t k = 0; k < scene.block.size(); ++k)
+    if (scene.block[k].automatic_order && !simulation.blocks()[k].fixed())
+      choice.orders[static_cast<int>(k)] = simulation.blocks()[k].order();
+}
+
+void take_estimate(const AccuracyEstimate& estimate, AccuracyState& choice) {
+  choice.order_error = estimate.order;
+  choice.sub_face_error = estimate.sub_faces;
+  choice.goals = estimate.goals;
+  choice.slow_block = estimate.slow_block;
+}
+
+/// @return false if it was ended
+bool choose_in_statics(const LoadedScene& loaded, int threads, const std::function<bool()>& goes_on,
+                       AccuracyState& choice) {
+  const Scene& scene = loaded.scene;
+  BuiltSimulation built = built_or_thrown(loaded, threads);
+  Simulation& simulation = built.simulation;
+  const std::vector<Measure> measures = measures_of(scene, simulation.blocks());
+  const AccuracyRequest request = request_of(scene);
+  const GoalValues goals = [&](const Simulation& now) { return goals_of(now, measures); };
+  AccuracyRounds rounds;
+  const double given = simulation.system().settings().search.chord_tolerance;
+  // The run itself tells why blocks of these orders find no equilibrium.
+  if (find_equilibrium(simulation, scene.analysis.end_time, request, goals, rounds, goes_on) ==
+      StaticStatus::balancing)
+    return false;
+  choice.rounds = static_cast<int>(rounds.orders.size() + rounds.sub_faces.size());
+  take_orders(scene, simulation, choice);
+  if (const double chosen = simulation.system().settings().search.chord_tolerance; chosen != given)
+    choice.chord_tolerance = chosen;
+  take_estimate(accuracy_estimate(goals(simulation), rounds), choice);
+  return true;
+}
+
+/// @return false if it was ended
+bool choose_in_motion(const LoadedScene& loaded, int threads, const std::function<bool()>& goes_on,
+                      AccuracyState& choice) {
+  const Scene& scene = loaded.scene;
+  const AccuracyRequest request = request_of(scene);
+  AccuracyRounds rounds;
+  for (;;) {
+    BuiltSimulation built = built_or_thrown(*with_choice(loaded, choice), threads);
+    Simulation& simulation = built.simulation;
+    if (scene.analysis.initial_state == SceneAnalysis::InitialState::statics &&
+        start_in_statics(simulation, goes_on).end == StaticStart::End::interrupted)
+      return false;
+    const std::vector<Measure> measures = measures_of(scene, simulation.blocks());
+    const GoalValues values = [&](const Simulation& now) { return goals_of(now, measures); };
+    std::optional<PilotRun> pilot = pilot_run(simulation, scene.analysis.end_time, values, goes_on);
+    if (!pilot) return false;
+    ++choice.rounds;
+    std::vector<Goal> goals = values(simulation);
+    for (std::size_t k = 0; k < goals.size(); ++k) goals[k].values = pilot->round.goals[k];
+    choice.motion.scales = std::move(pilot->scales);
+    rounds.orders.push_back(std::move(pilot->round));
+    const bool goes = raise_orders(simulation, request, goals, rounds);
+    take_orders(scene, simulation, choice);
+    if (goes) continue;
+    take_estimate(accuracy_estimate(goals, rounds), choice);
+    return true;
+  }
+}
+
+/// Shortest time between two rows of a history that increases, s; infinite without histories.
+class ShortestGap {
+ public:
+  void add(double before, double after) { gap_ = std::min(gap_, after - before); }
+  template <class Rows>
+  void add_rows(const Rows& rows) {
+    for (std::size_t k = 1; k < rows.size(); ++k) add(rows[k - 1].time, rows[k].time);
+  }
+  [[nodiscard]] double seconds() const { return gap_; }
+
+ private:
+  double gap_ = std::numeric_limits<double>::infinity();
+};
+
+double shortest_gap(const Scene& scene) {
+  ShortestGap gap;
+  gap.add_rows(scene.analysis.gravity_history);
+  for (const SceneBlock& block : scene.block) {
+    for (const SceneLoad& load : block.load) gap.add_rows(load.history);
+    for (const SceneFix& fix : block.fix) gap.add_rows(fix.history);
+  }
+  return gap.seconds();
+}
+
+}  // namespace
+
+std::optional<AccuracyState> choose_for_accuracy(const LoadedScene& loaded, int threads,
+                                                 const std::function<bool()>& goes_on) {
+  AccuracyState choice;
+  const bool statics = loaded.scene.analysis.type == SceneAnalysis::Type::statics;
+  const bool done = statics ? choose_in_statics(loaded, threads, goes_on, choice)
+                            : choose_in_motion(loaded, threads, goes_on, choice);
+  return done ? std::optional(std::move(choice)) : std::nullopt;
+}
+
+std::shared_ptr<const LoadedScene> with_choice(const LoadedScene& loaded, const AccuracyState& choice) {
+  auto chosen = std::make_shared<LoadedScene>(loaded);
+  Scene& scene = chosen->scene;
+  for (const auto& [block, order] : choice.orders) scene.block[at(block)].order = order;
+  if (choice.chord_tolerance > 0.0) scene.contact.chord_tolerance = choice.chord_tolerance;
+  if (scene.analysis.automatic_step)
+    scene.analysis.time_step = std::min(scene.analysis.time_step, shortest_gap(scene));
+  return chosen;
+}
+
+MotionRequest motion_request(const Scene& scene) {
+  constexpr double fewest_steps = 16.0;
+  return {.accuracy = *scene.analysis.accuracy,
+          .longest_step = std::min(scene.analysis.end_time / fewest_steps, shortest_gap(scene)),
+          .end_time = scene.analysis.end_time};
+}
+
+}  // namespace ashlar

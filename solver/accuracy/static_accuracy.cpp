@@ -1,0 +1,274 @@
+#include "solver/accuracy/static_accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "geometry/index.hpp"
+#include "solver/accuracy/chosen_orders.hpp"
+#include "solver/run/order_error.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(sum);
+}
+
+double length(const std::vector<double>& values) {
+  return distance(values, std::vector<double>(values.size(), 0.0));
+}
+
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Energy that all estimated blocks lack, J.
+double sum_of_lacks(const AccuracyRound& round) {
+  double sum = 0.0;
+  for (const double lack : round.lacks) sum += std::max(lack, 0.0);
+  return sum;
+}
+
+/// Error of the energy, relative.
+double error_of_energy(const AccuracyRound& round) {
+  const double lacks = sum_of_lacks(round);
+  return lacks > 0.0 ? lacks / (sum_of(round.energies) + lacks) : 0.0;
+}
+
+AccuracyRound round_of(const Simulation& simulation, const std::vector<Goal>& goals) {
+  AccuracyRound round;
+  for (const Goal& goal : goals) round.goals.push_back(goal.values);
+  const std::size_t count = simulation.blocks().size();
+  round.energies.assign(count, 0.0);
+  round.lacks.assign(count, -1.0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    if (simulation.system().moving()[k] && !block.rigid())
+      round.energies[k] = block.elastic(simulation.states()[k].position).energy;
+  }
+  for (const OrderError& error : order_errors(simulation)) round.lacks[at(error.block)] = error.lacks;
+  return round;
+}
+
+/// Estimated distance of a goal to its limit. Changes are those over two rounds: an even function has no odd part, so that
+/// every second order may change nothing. The ratio of two of them is bounded from below, as a change that is small by
+/// chance is not the end, and from above, where the sum of what is left would have no meaning.
+double distance_to_limit(const std::vector<AccuracyRound>& rounds, std::size_t goal) {
+  constexpr double least_ratio = 1.0 / 3.0, largest_ratio = 0.8, unknown_ratio = 0.5;
+  const auto change = [&](std::size_t k) {
+    return distance(rounds[k].goals[goal], rounds[k - std::min<std::size_t>(k, 2)].goals[goal]);
+  };
+  const std::size_t last = rounds.size() - 1;
+  double ratio = last < 3 ? unknown_ratio : least_ratio;
+  if (last >= 4 && change(last) > 0.0)
+    ratio = std::clamp(change(last) / change(last - 2), least_ratio, largest_ratio);
+  return change(last) * ratio / (1.0 - ratio);
+}
+
+double relative(double error, const Goal& goal) {
+  const double scale = std::max(length(goal.values), goal.least);
+  return error > 0.0 ? (scale > 0.0 ? error / scale : unknown) : 0.0;
+}
+
+/// True if all moving blocks that deform are estimated.
+bool is_whole(const AccuracyRound& round) {
+  for (std::size_t k = 0; k < round.lacks.size(); ++k)
+    if (round.lacks[k] < 0.0 && round.energies[k] > 0.0) return false;
+  return true;
+}
+
+/// Error of a goal by the orders of blocks. If all blocks are estimated, it is not larger than the error in the norm of
+/// the energy.
+double order_error_of(const std::vector<AccuracyRound>& rounds, std::size_t index, const Goal& goal) {
+  const double in_norm = is_whole(rounds.back()) ? std::sqrt(error_of_energy(rounds.back())) : unknown;
+  return rounds.size() > 1 ? std::min(in_norm, relative(distance_to_limit(rounds, index), goal)) : in_norm;
+}
+
+/// Sub-faces: errors of gaps are proportional to the chord tolerance, which a round divides by this.
+constexpr double of_chord = 4.0;
+
+double sub_face_error_of(const AccuracyRounds& rounds, std::size_t index, const Goal& goal) {
+  if (rounds.sub_faces.empty()) return 0.0;
+  const std::vector<double>& before = rounds.sub_faces.size() > 1
+                                          ? rounds.sub_faces[rounds.sub_faces.size() - 2].goals[index]
+                                          : rounds.orders.back().goals[index];
+  return relative(distance(rounds.sub_faces.back().goals[index], before) / (of_chord - 1.0), goal);
+}
+
+double sub_face_error_of_energy(const AccuracyRounds& rounds) {
+  if (rounds.sub_faces.empty()) return 0.0;
+  const AccuracyRound& before =
+      rounds.sub_faces.size() > 1 ? rounds.sub_faces[rounds.sub_faces.size() - 2] : rounds.orders.back();
+  const double now = sum_of(rounds.sub_faces.back().energies);
+  const double change = std::abs(now - sum_of(before.energies)) / (of_chord - 1.0);
+  return change > 0.0 ? change / std::max(now, change) : 0.0;
+}
+
+/// Choice of the orders of the next round.
+class OrderChoice {
+ public:
+  OrderChoice(const Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
+              const AccuracyRounds& rounds)
+      : simulation_(simulation), request_(request), rounds_(rounds), last_(rounds.orders.back()) {
+    int deformable = 0;
+    for (std::size_t k = 0; k < request.orders.size(); ++k) {
+      const BlockModel& block = simulation.blocks()[k];
+      if (simulation.system().moving()[k] && !block.rigid()) ++deformable;
+      if (can_rise(static_cast<int>(k))) raisable_.push_back(static_cast<int>(k));
+    }
+    mean_energy_ = sum_of(last_.energies) / std::max(deformable, 1);
+    for (std::size_t k = 0; k < goals.size(); ++k)
+      goals_met_ = goals_met_ && order_error_of(rounds.orders, k, goals[k]) <= request.accuracy;
+    for (const int block : raisable_) all_estimated_ = all_estimated_ && last_.lacks[at(block)] >= 0.0;
+    if (!all_estimated_) goals_met_ = goals_met_ && energy_is_still();
+  }
+
+  /// Blocks that get the next order; empty: orders suffice, or cannot be raised.
+  [[nodiscard]] std::vector<int> blocks() const {
+    // Blocks whose lacks are much smaller than the largest one hardly change a goal.
+    constexpr double of_largest = 0.03;
+    double largest = 0.0;
+    for (const int block : raisable_) largest = std::max(largest, last_.lacks[at(block)]);
+    std::vector<int> chosen;
+    for (const int block : raisable_) {
+      const double lack = last_.lacks[at(block)];
+      const bool lacks_much = lack > request_.accuracy * std::max(last_.energies[at(block)], mean_energy_) ||
+                              (!goals_met_ && (lack < 0.0 || (lack > 0.0 && lack >= of_largest * largest)));
+      if (lacks_much) chosen.push_back(block);
+    }
+    return chosen;
+  }
+
+ private:
+  [[nodiscard]] bool can_rise(int index) const {
+    const BlockModel& block = simulation_.blocks()[at(index)];
+    return request_.orders[at(index)] && simulation_.system().moving()[at(index)] &&
+           can_have_order(block, block.order() + 1) &&
+           std::find(rounds_.highest.begin(), rounds_.highest.end(), index) == rounds_.highest.end();
+  }
+
+  /// True if two more orders have hardly changed the energy: one may change nothing, as an even function has no odd part.
+  [[nodiscard]] bool energy_is_still() const {
+    const std::vector<AccuracyRound>& all = rounds_.orders;
+    if (all.size() < 3) return false;
+    const double now = sum_of(last_.energies);
+    for (const std::size_t back : {2U, 3U})
+      if (!(std::abs(sum_of(all[all.size() - back].energies) - now) <= request_.accuracy * now)) return false;
+    return true;
+  }
+
+  const Simulation& simulation_;
+  const AccuracyRequest& request_;
+  const AccuracyRounds& rounds_;
+  const AccuracyRound& last_;
+  std::vector<int> raisable_;
+  double mean_energy_ = 0.0;  ///< J, of the blocks that deform
+  bool goals_met_ = true;
+  bool all_estimated_ = true;
+};
+
+/// @return true if a block has a higher order now
+bool raise(Simulation& simulation, const std::vector<int>& blocks, AccuracyRounds& rounds) {
+  bool raised = false;
+  for (const int block : blocks) {
+    if (changed_order(simulation, block, simulation.blocks()[at(block)].order() + 1))
+      raised = true;
+    else
+      rounds.highest.push_back(block);
+  }
+  return raised;
+}
+
+/// True if a curved face is in contact.
+bool has_curved_contacts(const Simulation& simulation) {
+  return std::any_of(simulation.contacts().begin(), simulation.contacts().end(), [&](const PairRecord& pair) {
+    const std::vector<BlockSurface>& surfaces = simulation.finder().surfaces();
+    return !pair.points.empty() && (surfaces[at(pair.a)].curves() || surfaces[at(pair.b)].curves());
+  });
+}
+
+/// The last chord tolerance suffices, or more sub-faces are of no use.
+bool sub_faces_suffice(const AccuracyRequest& request, const std::vector<Goal>& goals,
+                       const AccuracyRounds& rounds) {
+  constexpr std::size_t most = 4;  // 4^4 in the chord are 4^4 times as many sub-faces
+  if (rounds.sub_faces.size() >= most) return true;
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    if (sub_face_error_of(rounds, k, goals[k]) > request.accuracy) return false;
+  return !goals.empty() || sub_face_error_of_energy(rounds) <= request.accuracy;
+}
+
+/// The block with the largest lack, if the last order has reduced it by less than half.
+int slow_block_of(const std::vector<AccuracyRound>& rounds) {
+  if (rounds.size() < 2) return -1;
+  const std::vector<double>& last = rounds.back().lacks;
+  const auto worst = std::max_element(last.begin(), last.end());
+  const std::vector<double>& before = rounds[rounds.size() - 2].lacks;
+  const double earlier = before[static_cast<std::size_t>(worst - last.begin())];
+  return *worst > 0.0 && *worst > 0.5 * earlier ? static_cast<int>(worst - last.begin()) : -1;
+}
+
+}  // namespace
+
+bool raise_orders(Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
+                  AccuracyRounds& rounds) {
+  // A block that cannot be raised may leave others that can.
+  for (;;) {
+    const std::vector<int> blocks = OrderChoice(simulation, request, goals, rounds).blocks();
+    if (blocks.empty()) return false;
+    if (raise(simulation, blocks, rounds)) return true;
+  }
+}
+
+bool refine(Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
+            AccuracyRounds& rounds) {
+  (rounds.divides ? rounds.sub_faces : rounds.orders).push_back(round_of(simulation, goals));
+  if (rounds.divides) {
+    if (sub_faces_suffice(request, goals, rounds)) return false;
+  } else {
+    if (raise_orders(simulation, request, goals, rounds)) return true;
+    if (!request.sub_faces || !has_curved_contacts(simulation)) return false;
+    rounds.divides = true;
+  }
+  simulation.set_chord_tolerance(simulation.system().settings().search.chord_tolerance / of_chord);
+  return true;
+}
+
+StaticStatus find_equilibrium(Simulation& simulation, double end_time, const AccuracyRequest& request,
+                              const GoalValues& goals, AccuracyRounds& rounds,
+                              const std::function<bool()>& goes_on) {
+  for (;;) {
+    StaticStatus status = StaticStatus::balancing;
+    while (status == StaticStatus::balancing) {
+      if (!goes_on()) return status;
+      status = simulation.static_step(end_time);
+    }
+    if (status != StaticStatus::equilibrium || !refine(simulation, request, goals(simulation), rounds))
+      return status;
+  }
+}
+
+AccuracyEstimate accuracy_estimate(const std::vector<Goal>& goals, const AccuracyRounds& rounds) {
+  AccuracyEstimate estimate;
+  if (rounds.orders.empty()) return estimate;
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    const double order = order_error_of(rounds.orders, k, goals[k]);
+    const double sub_faces = sub_face_error_of(rounds, k, goals[k]);
+    estimate.goals.push_back(order + sub_faces);
+    estimate.order = std::max(estimate.order, order);
+    estimate.sub_faces = std::max(estimate.sub_faces, sub_faces);
+  }
+  if (goals.empty()) {
+    estimate.order = error_of_energy(rounds.orders.back());
+    estimate.sub_faces = sub_face_error_of_energy(rounds);
+  }
+  estimate.slow_block = slow_block_of(rounds.orders);
+  return estimate;
+}
+
+}  // namespace ashlar

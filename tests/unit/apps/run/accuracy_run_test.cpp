@@ -1,0 +1,169 @@
+// Runs with analysis.accuracy.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "apps/results/folder/run_checkpoint.hpp"
+#include "apps/results/tables/history_table.hpp"
+#include "apps/run/accuracy_choice.hpp"
+#include "apps/run/run.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ashlar {
+namespace {
+
+using ::testing::HasSubstr;
+
+LoadedScene loaded(const std::string& text) {
+  Diagnostics faults;
+  auto scene = load_scene_text(text, "test.toml", {}, faults);
+  if (!scene) throw std::invalid_argument(to_string(faults.sorted().front()));
+  return std::move(*scene);
+}
+
+/// A pier of 2 m on a floor under its weight of 20 kPa at the foot, nu = 0. Its middle sinks by
+/// 3/4 rho g h^2 / 2E = 3e-5 m.
+std::string pier(const std::string& analysis, const std::string& more = "") {
+  return "analysis = { gravity = [0, 0, -10], " + analysis + R"( }
+contact = { friction_angle = 30 }
+material = [{ name = "stone", density = 2000, young_modulus = 1e9, poisson_ratio = 0 }]
+[[block]]
+name = "floor"
+fixed = true
+box = { min = [-1, -1, -1], max = [2, 2, 0] }
+[[block]]
+name = "pier"
+material = "stone"
+box = { min = [0, 0, 0], max = [1, 1, 2] }
+)" + more +
+         R"(
+[[measure]]
+name = "middle"
+block = "pier"
+point = [0.5, 0.5, 1]
+)";
+}
+
+nlohmann::json error_of(const ashlar::Run& run) {
+  return nlohmann::json::parse(run.summary())["error"];
+}
+
+TEST(AccuracyRun, AStaticRunHasTheChosenOrder) {
+  ashlar::Run run(loaded(pier("type = \"static\", accuracy = 1e-3")));
+  while (run.step()) {
+  }
+  ASSERT_EQ(run.status(), RunStatus::equilibrium);
+  EXPECT_NEAR(run.motion("pier", {0.5, 0.5, 1}).displacement.z(), -3e-5, 1e-3 * 3e-5);
+  const auto error = error_of(run);
+  EXPECT_EQ(error["accuracy"], 1e-3);
+  EXPECT_LE(error["estimate"], 1e-3);
+  EXPECT_EQ(error["estimate"], error["measures"]["middle"]);
+  EXPECT_EQ(error["orders"]["2"], 1);
+  EXPECT_EQ(error["advice"], "");
+  EXPECT_FALSE(error["by"].contains("step"));
+}
+
+TEST(AccuracyRun, AGivenOrderStaysAndIsNamed) {
+  ashlar::Run run(loaded(pier("type = \"static\", accuracy = 1e-3", "order = 1")));
+  while (run.step()) {
+  }
+  ASSERT_EQ(run.status(), RunStatus::equilibrium);
+  EXPECT_EQ(run.simulation().blocks()[1].order(), 1);
+  const auto error = error_of(run);
+  // In the norm of the energy, of which order 1 lacks a quarter.
+  EXPECT_NEAR(error["estimate"], 0.5, 0.01);
+  EXPECT_THAT(std::string(error["advice"]), HasSubstr("blocks whose order is given"));
+}
+
+/// The pier without a floor, thrown up with 5 m/s: it is back after 1 s.
+const std::string thrown = R"(
+analysis = { gravity = [0, 0, -10], end_time = 1, accuracy = 1e-2 }
+material = [{ name = "stone", density = 2000, young_modulus = 1e9, poisson_ratio = 0 }]
+[[block]]
+name = "pier"
+material = "stone"
+order = 0
+box = { min = [0, 0, 0], max = [1, 1, 2] }
+velocity = [0, 0, 5]
+[[measure]]
+name = "middle"
+block = "pier"
+point = [0.5, 0.5, 1]
+)";
+
+// dda falls by g h t / 2 too much: 1 % of the height of 1.25 m is 0.0125 m.
+TEST(AccuracyRun, TheStepOfAMotionIsChosen) {
+  ashlar::Run run(loaded(thrown));
+  while (run.step()) {
+  }
+  ASSERT_EQ(run.status(), RunStatus::completed);
+  EXPECT_EQ(run.simulation().time(), 1.0);
+  const double error = std::abs(run.motion("pier", {0.5, 0.5, 1}).displacement.z());
+  EXPECT_LE(error, 0.0125);
+  EXPECT_GE(error, 0.1 * 0.0125) << run.simulation().steps();
+  const auto told = error_of(run);
+  EXPECT_NEAR(double(told["estimate"]) * 1.25, error, 0.3 * error);
+  EXPECT_EQ(told["by"]["step"], told["estimate"]);
+  EXPECT_EQ(told["steps_with_impacts"], 0);
+  EXPECT_GT(told["steps_tested"], 0);
+}
+
+TEST(AccuracyRun, AResumedRunHasTheSameBits) {
+  const std::string scene = thrown + "[output]\nevery = 1000\n";
+  const TemporaryFolder folder;
+  ashlar::Run straight(loaded(scene));
+  while (straight.step()) {
+  }
+  {
+    ashlar::Run first(loaded(scene));
+    first.record(folder.path() / "out");
+    for (int k = 0; k < 20; ++k) (void)first.step();
+    write_checkpoint(folder.path() / "kept", 1, first.checkpoint());
+  }
+  ashlar::Run second(loaded(scene));
+  second.resume(read_checkpoint(folder.path() / "kept", 1));
+  while (second.step()) {
+  }
+  EXPECT_EQ(second.simulation().states()[0].position, straight.simulation().states()[0].position);
+  EXPECT_EQ(second.simulation().steps(), straight.simulation().steps());
+  EXPECT_EQ(error_of(second)["estimate"], error_of(straight)["estimate"]);
+}
+
+TEST(AccuracyRun, AResumedStaticRunKeepsItsOrders) {
+  ashlar::Run first(loaded(pier("type = \"static\", accuracy = 1e-3")));
+  (void)first.step();
+  ashlar::Run second(loaded(pier("type = \"static\", accuracy = 1e-3")));
+  second.resume(first.checkpoint());
+  EXPECT_EQ(second.simulation().blocks()[1].order(), first.simulation().blocks()[1].order());
+  while (first.step()) {
+  }
+  while (second.step()) {
+  }
+  EXPECT_EQ(second.simulation().states()[1].position, first.simulation().states()[1].position);
+}
+
+// With a history the step is at most its shortest interval.
+TEST(AccuracyRun, HistoriesBoundTheStep) {
+  const LoadedScene scene = loaded(R"(
+analysis = { gravity_history = [[0, 0, 0, 0], [0.1, 0, 0, -1], [0.15, 0, 0, 0]], end_time = 10, accuracy = 1e-1 }
+material = [{ name = "stone", density = 2000, young_modulus = 1e9, poisson_ratio = 0 }]
+[[block]]
+name = "pier"
+material = "stone"
+order = 0
+box = { min = [0, 0, 0], max = [1, 1, 2] }
+)");
+  EXPECT_NEAR(motion_request(scene.scene).longest_step, 0.05, 1e-12);
+}
+
+TEST(AccuracyRun, TheChoiceCanBeEnded) {
+  const LoadedScene scene = loaded(pier("type = \"static\", accuracy = 1e-3"));
+  EXPECT_FALSE(choose_for_accuracy(scene, 1, [] { return false; }));
+  EXPECT_FALSE(choose_for_accuracy(loaded(thrown), 1, [] { return false; }));
+}
+
+}  // namespace
+}  // namespace ashlar

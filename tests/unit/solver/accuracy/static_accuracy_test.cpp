@@ -1,0 +1,163 @@
+#include "solver/accuracy/static_accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::fixed_box;
+using test_support::place_of;
+using test_support::run_static;
+using test_support::same_law;
+
+const std::function<bool()> always = [] { return true; };
+
+const Material bar{2500.0, 1e7, 0.0};
+
+/// A bar of 1 m^2 and 2 m on a base.
+Simulation standing(int order) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-1, -1, -1}, {2, 2, 0}));
+  blocks.emplace_back(block_of("bar", Polyhedron(make_box({0, 0, 0}, {1, 1, 2})), bar, order));
+  return {std::move(blocks), {{}, {}}, same_law({1e11, 1e11, 0.5, 0.0, 0.0, true}), SimulationSettings{}};
+}
+
+/// Displacement of the middle of the bar.
+std::vector<Goal> middle_of_bar(const Simulation& simulation) {
+  const Vector3 middle(0.5, 0.5, 1.0);
+  const Vector3 way = place_of(simulation, 1, middle) - middle;
+  return {{"middle", {way.x(), way.y(), way.z()}}};
+}
+
+// Under its weight the middle sinks by 3/4 of rho g h^2 / 2E; order 1 has half of it at the middle, order 2 is exact.
+TEST(StaticAccuracy, RaisesTheOrderOfABarUntilItIsExact) {
+  Simulation simulation = standing(1);
+  AccuracyRounds rounds;
+  ASSERT_EQ(find_equilibrium(simulation, 1.0, {1e-3, {false, true}}, middle_of_bar, rounds, always),
+            StaticStatus::equilibrium);
+  const double exact = -0.75 * 2500.0 * 9.81 * 4.0 / 2.0 / 1e7;
+  EXPECT_NEAR(middle_of_bar(simulation)[0].values[2] / exact, 1.0, 1e-3);
+  EXPECT_GE(simulation.blocks()[1].order(), 2);
+  EXPECT_LE(simulation.blocks()[1].order(), 4) << "two orders that change nothing are enough";
+  const AccuracyEstimate estimate = accuracy_estimate(middle_of_bar(simulation), rounds);
+  EXPECT_LE(estimate.order, 1e-3);
+  EXPECT_EQ(estimate.sub_faces, 0.0);
+}
+
+TEST(StaticAccuracy, WithoutGoalsTheEnergyOfBlocksIsOne) {
+  Simulation simulation = standing(1);
+  AccuracyRounds rounds;
+  const GoalValues none = [](const Simulation&) { return std::vector<Goal>(); };
+  ASSERT_EQ(find_equilibrium(simulation, 1.0, {1e-2, {false, true}}, none, rounds, always),
+            StaticStatus::equilibrium);
+  EXPECT_EQ(simulation.blocks()[1].order(), 2);
+  ASSERT_EQ(rounds.orders.size(), 2U);
+  EXPECT_NEAR(rounds.orders[0].lacks[1] / rounds.orders[1].energies[1], 0.25, 1e-3);
+  EXPECT_LE(accuracy_estimate({}, rounds).largest(), 1e-3);
+}
+
+TEST(StaticAccuracy, KeepsGivenOrdersAndSaysWhatTheyMiss) {
+  Simulation simulation = standing(1);
+  AccuracyRounds rounds;
+  const GoalValues none = [](const Simulation&) { return std::vector<Goal>(); };
+  ASSERT_EQ(find_equilibrium(simulation, 1.0, {1e-2, {false, false}}, none, rounds, always),
+            StaticStatus::equilibrium);
+  EXPECT_EQ(simulation.blocks()[1].order(), 1);
+  EXPECT_NEAR(accuracy_estimate({}, rounds).order, 0.25, 1e-2);
+}
+
+TEST(StaticAccuracy, CanBeEnded) {
+  Simulation simulation = standing(1);
+  AccuracyRounds rounds;
+  EXPECT_EQ(
+      find_equilibrium(simulation, 1.0, {1e-2, {false, true}}, middle_of_bar, rounds, [] { return false; }),
+      StaticStatus::balancing);
+  EXPECT_TRUE(rounds.orders.empty());
+}
+
+/// Rounds with these values of one goal. @param lacks of the only block, whose energy is 1 J
+std::vector<AccuracyRound> rounds_of(const std::vector<double>& values, double lacks) {
+  std::vector<AccuracyRound> rounds;
+  for (const double value : values) rounds.push_back({{{value}}, {1.0}, {lacks}});
+  return rounds;
+}
+
+// 1 - 0.7^k: 0.7^4 is left.
+TEST(StaticAccuracy, EstimatesTheRestOfAGeometricSequence) {
+  AccuracyRounds rounds;
+  rounds.orders = rounds_of({0.0, 0.3, 0.51, 0.657, 0.7599}, 1.0);
+  EXPECT_NEAR(accuracy_estimate({{"goal", {0.7599}}}, rounds).order, 0.2401 / 0.7599, 1e-12);
+  EXPECT_NEAR(accuracy_estimate({{"goal", {0.7599}, 2.0}}, rounds).order, 0.2401 / 2.0, 1e-12)
+      << "relative to the least value";
+  rounds.orders = rounds_of({0.0, 0.3, 0.51, 0.657, 0.7599}, 1e-4);
+  EXPECT_NEAR(accuracy_estimate({{"goal", {0.7599}}}, rounds).order, 1e-2, 1e-5)
+      << "no more than in the norm of the energy";
+}
+
+// Odd orders change nothing in an even function: a pause is not the end.
+TEST(StaticAccuracy, APauseIsNotTheEnd) {
+  AccuracyRounds rounds;
+  rounds.orders = rounds_of({0.0, 0.5, 0.5}, 1.0);
+  EXPECT_GT(accuracy_estimate({{"goal", {0.5}}}, rounds).order, 0.05);
+  rounds.orders = rounds_of({0.0, 0.5, 0.5, 0.5}, 1.0);
+  EXPECT_LT(accuracy_estimate({{"goal", {0.5}}}, rounds).order, 1e-12);
+}
+
+// Gaps are proportional to the chord tolerance, of which a round leaves a quarter: a third of the change is left.
+TEST(StaticAccuracy, EstimatesSubFacesFromTheLastRound) {
+  AccuracyRounds rounds;
+  rounds.orders = rounds_of({1.0}, 0.0);
+  rounds.sub_faces = rounds_of({1.3, 1.36}, 0.0);
+  const AccuracyEstimate estimate = accuracy_estimate({{"goal", {1.36}}}, rounds);
+  EXPECT_NEAR(estimate.sub_faces, 0.02 / 1.36, 1e-12);
+  EXPECT_NEAR(estimate.goals.at(0), 0.02 / 1.36, 1e-12);
+}
+
+TEST(StaticAccuracy, NamesTheBlockThatConvergesSlowly) {
+  AccuracyRounds rounds;
+  rounds.orders = {{{}, {1.0, 1.0}, {0.3, 0.2}}, {{}, {1.0, 1.0}, {0.01, 0.15}}};
+  EXPECT_EQ(accuracy_estimate({}, rounds).slow_block, 1);
+  rounds.orders.back().lacks = {0.01, 0.05};
+  EXPECT_EQ(accuracy_estimate({}, rounds).slow_block, -1);
+}
+
+/// A plate of 4 m on two edges under its weight, clamped at its ends.
+Simulation plate(int order) {
+  BlockDefinition block =
+      block_of("plate", Polyhedron(make_box({0, 0, 0}, {4, 1, 0.5})), {2500.0, 1e9, 0.2}, order);
+  block.supports.push_back({Plane{{0, 0, 0}, Vector3::UnitX()}});
+  block.supports.push_back({Plane{{4, 0, 0}, Vector3::UnitX()}});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(block));
+  return {std::move(blocks), {{}}, same_law({1e9, 1e9, 0.5}), SimulationSettings{}};
+}
+
+double sag(const Simulation& simulation) {
+  return 0.25 - place_of(simulation, 0, {2, 0.5, 0.25}).z();
+}
+
+// Against the highest order there is, which no estimate knows.
+TEST(StaticAccuracy, ReachesWhatIsAskedOfAClampedPlate) {
+  Simulation fine = plate(12);
+  ASSERT_EQ(run_static(fine, 1.0), StaticStatus::equilibrium);
+  const GoalValues goal = [](const Simulation& now) { return std::vector<Goal>{{"middle", {sag(now)}}}; };
+  for (const double accuracy : {1e-1, 1e-2}) {
+    Simulation simulation = plate(1);
+    AccuracyRounds rounds;
+    ASSERT_EQ(find_equilibrium(simulation, 1.0, {accuracy, {true}}, goal, rounds, always),
+              StaticStatus::equilibrium);
+    const double error = std::abs(sag(simulation) / sag(fine) - 1.0);
+    EXPECT_LE(error, accuracy);
+    const double estimate = accuracy_estimate(goal(simulation), rounds).order;
+    EXPECT_LE(error, 3.0 * estimate) << simulation.blocks()[0].order();
+    EXPECT_GE(error, estimate / 5.0) << simulation.blocks()[0].order();
+  }
+}
+
+}  // namespace
+}  // namespace ashlar
