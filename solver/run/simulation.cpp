@@ -26,9 +26,8 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
                        LawOfPair law, const SimulationSettings& settings, const std::vector<TieRequest>& ties,
                        std::vector<bool> absent)
     : system_(std::move(blocks), std::move(law), settings, ties, std::move(absent)),
-      contacts_(system_),
-      factors_(settings.linear_method),
-      audit_(system_.blocks().size()) {
+      caches_{StepContacts(system_), FactorCache(settings.linear_method),
+              DepthAudit(system_.blocks().size())} {
   state_.next_step = settings.time_step;
   for (std::size_t k = 0; k < system_.blocks().size(); ++k) {
     const BlockModel& block = system_.blocks()[k];
@@ -47,7 +46,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
 }
 
 RunContext Simulation::context() {
-  return {system_, state_, contacts_, factors_, audit_, fault_};
+  return {system_, state_, caches_, fault_};
 }
 
 RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& multiplied) const {
@@ -80,7 +79,7 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   if (depths.empty()) return;
   // The initial depth of contacts determines the depth that later contacts may have without force.
   std::map<PairKey, double> placed;
-  StepContacts contacts(system_);  // a stage moves blocks before contacts_ evaluates any
+  StepContacts contacts(system_);  // a stage moves blocks before its own are evaluated
   const std::vector<FoundContacts> found = contacts.detect(system_, state_, 0.0);
   for (const ContactPair& pair : contacts.pairs(system_, state_, found, PairUse::statics)) {
     double& deepest = placed[{pair.a(), pair.b()}];
@@ -104,7 +103,6 @@ void Simulation::add_bolts(std::vector<Bolt> bolts) {
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {
-  const RunContext run = context();
   std::vector<int> settled;
   for (int k = 0; k < system_.count(); ++k) {
     const BlockModel& block = system_.blocks()[at(k)];
@@ -120,7 +118,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < system_.settings().settling_steps; ++step) {
       const double way = (*position - state.position).norm();
-      start_carried_step(run, k, block.carried_on(*position));
+      start_carried_step(system_, state_, caches_, k, block.carried_on(*position));
       // Steps that no longer shrink are rounding errors.
       if (!(way < last)) break;
       last = way;
@@ -136,7 +134,7 @@ StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on
 }
 
 void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
-  ashlar::start_stage(context(), end, was_absent);
+  ashlar::start_stage(system_, state_, caches_, end, was_absent);
 }
 
 bool Simulation::reached(double end_time) const {
@@ -152,14 +150,14 @@ StaticStatus Simulation::static_step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time, double far) {
-  wake_all(context());
+  wake_all(system_, state_);
   const StaticStatus status = ashlar::static_step(context(), end_time, far);
   const bool ended = status == StaticStatus::equilibrium || status == StaticStatus::not_converged;
-  return ended ? rigid_verdict(context(), end_time, status) : status;
+  return ended ? rigid_verdict(system_, state_, end_time, status) : status;
 }
 
 void Simulation::wake() {
-  wake_all(context());
+  wake_all(system_, state_);
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
@@ -167,36 +165,36 @@ std::vector<MovingBlock> Simulation::moving_blocks() const {
 }
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {
-  return ashlar::loose_blocks(context());
+  return ashlar::loose_blocks(system_, state_, caches_.contacts);
 }
 
 void Simulation::set_load_factor(int block, int load, double factor) {
   if (!std::isfinite(factor)) throw std::invalid_argument("the factor of a load is a finite number");
   system_.set_load_factor(block, load, factor);
-  wake_all(context());
+  wake_all(system_, state_);
   state_.statics = StaticState{};
 }
 
 DroppedByOrder Simulation::change_order(int block, int order) {
-  wake_all(context());
+  wake_all(system_, state_);
   state_.sleep.rests.at(at(block)) = BlockRest{};
-  return ashlar::change_order(context(), block, order);
+  return ashlar::change_order(system_, state_, caches_, block, order);
 }
 
 ContactExplanation Simulation::explain_contacts(int a, int b) const {
-  return ashlar::explain_contacts(system_, state_, contacts_.finder().state(), a, b);
+  return ashlar::explain_contacts(system_, state_, caches_.contacts.finder().state(), a, b);
 }
 
 SimulationSnapshot Simulation::snapshot() const {
-  return snapshot_of(system_, state_, contacts_, factors_);
+  return snapshot_of(system_, state_, caches_);
 }
 
 void Simulation::restore(const SimulationSnapshot& snapshot) {
-  ashlar::restore(context(), snapshot);
+  ashlar::restore(system_, state_, caches_, snapshot);
 }
 
 std::optional<StateFault> Simulation::audit() {
-  return audit_present(context()).fault;
+  return audit_present(system_, state_, caches_).fault;
 }
 
 Vector3 Simulation::momentum() const {
@@ -216,7 +214,7 @@ Vector3 Simulation::angular_momentum() const {
 }
 
 SimulationCounts Simulation::counts() const {
-  return counts_of(state_, contacts_, factors_);
+  return counts_of(state_, caches_);
 }
 
 }  // namespace ashlar

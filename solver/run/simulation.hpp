@@ -138,7 +138,7 @@ class Simulation {
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return system_.blocks(); }
   [[nodiscard]] const std::vector<BlockState>& states() const { return state_.states; }
   /// Surfaces in the last step's search, and their origins.
-  [[nodiscard]] const ContactFinder& finder() const { return contacts_.finder(); }
+  [[nodiscard]] const ContactFinder& finder() const { return caches_.contacts.finder(); }
   [[nodiscard]] const StepReport& report() const { return state_.report; }
   [[nodiscard]] const std::vector<PairRecord>& contacts() const { return state_.records; }
   [[nodiscard]] const PairHistories& histories() const { return state_.pairs; }
@@ -175,9 +175,7 @@ class Simulation {
 
   BlockSystem system_;
   RunState state_;
-  StepContacts contacts_;
-  FactorCache factors_;
-  DepthAudit audit_;
+  StepCaches caches_;
   std::optional<StateFault> fault_;
   JointPressure joint_pressure_;
 };

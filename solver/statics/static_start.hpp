@@ -20,6 +20,6 @@ namespace ashlar {
 [[nodiscard]] StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on);
 
 /// Energy of the springs of all ties in the present state, J: records have those of contacts only.
-[[nodiscard]] double energy_of_ties(const RunContext& run);
+[[nodiscard]] double energy_of_ties(const BlockSystem& system, RunState& state, const StepContacts& contacts);
 
 }  // namespace ashlar
