@@ -57,7 +57,7 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     roundoff_force_.push_back(block.fixed() ? 0.0 : block.force_rounding());
   asked_gradients_.resize(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
-  std::vector<std::array<int, 2>> tied;
+  std::vector<PairKey> tied;
   for (const auto& [a, b, stiffness] : ties) {
     if (!present(a) || !present(b)) continue;
     const BlockModel& block_a = blocks_[at(a)];
@@ -105,7 +105,7 @@ bool BlockSystem::any_incremental() const {
                      [](const BlockModel& block) { return block.incremental() != nullptr; });
 }
 
-double BlockSystem::smaller_size(const std::array<int, 2>& blocks) const {
+double BlockSystem::smaller_size(const BlockPair& blocks) const {
   return std::min(block_size(blocks_[at(blocks[0])]), block_size(blocks_[at(blocks[1])]));
 }
 

@@ -58,7 +58,7 @@ std::optional<StateFault> too_deep_of(const BlockSystem& system, const PairHisto
     fault = StateFault{RejectionReason::too_deep, pair.blocks, pair.depth, allowed, pair.place};
   };
   for (const PairDepth& pair : depths) {
-    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    const auto [a, b] = key_of(pair.blocks);
     const auto contact = known.find({a, b});
     hold_against(pair, allowed_depth(system, pairs, {a, b}, system.settings().depth.unknown_depth_share) +
                            (contact == known.end() ? 0.0 : contact->second));
@@ -115,7 +115,7 @@ PresentDepths audit_present(const BlockSystem& system, RunState& state, StepCach
   PresentDepths present;
   const Audit audit = measure_depths(system, caches, state.states, true, {});
   for (const PairDepth& pair : audit.depths) {
-    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    const auto [a, b] = key_of(pair.blocks);
     const auto contact = known.find({a, b});
     const PairHistory& noted = history_of(state.pairs, {a, b});
     const double expected =
@@ -133,7 +133,7 @@ void note_depths(const BlockSystem& system, RunState& state, const std::vector<P
     state.report.depth = std::max(state.report.depth, pair.depth - pair.overlap);
   }
   for (const PairDepth& pair : depths) {
-    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    const auto [a, b] = key_of(pair.blocks);
     PairHistory& history = state.pairs[{a, b}];
     history.depth = std::max(history.depth, pair.depth);
     const double depth = pair.depth - history.overlap;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/block_pair.hpp"
 #include "solver/bolts/step_bolt.hpp"
 #include "solver/contact/contact_pair.hpp"
 #include "solver/linear/block_matrix.hpp"
@@ -83,7 +84,7 @@ struct IslandResult {
   /// Pairs whose rows were updated, by index. The responses belong to them.
   std::vector<std::pair<int, ContactPair>> followed;
   /// If not converged: blocks of the pair whose points have changed state most often; -1: none did
-  std::array<int, 2> alternating = {-1, -1};
+  BlockPair alternating = {-1, -1};
 };
 
 /// Factor that later steps may use, by the data that it is rebuilt from.
@@ -145,8 +146,7 @@ void validate(const std::vector<Island>& islands, const std::vector<bool>& movin
               const std::vector<ContactPair>& pairs);
 
 /// Pairs of blocks of an island's contacts, ties left out.
-[[nodiscard]] std::vector<std::array<int, 2>> contacts_of(const Island& island,
-                                                          const std::vector<ContactPair>& pairs);
+[[nodiscard]] std::vector<PairKey> contacts_of(const Island& island, const std::vector<ContactPair>& pairs);
 
 /// Purpose of a system; each keeps its own factor.
 enum class SystemRole { step, stop };

@@ -36,7 +36,7 @@ class OpenClose {
         may_split_(!problem.scheme().is_static() && problem.pairs() >= many_pairs) {}
 
   /// Blocks of the pair whose points have changed state most often; -1: none did.
-  [[nodiscard]] std::array<int, 2> alternating() const {
+  [[nodiscard]] BlockPair alternating() const {
     const auto most = std::max_element(changes_.begin(), changes_.end());
     if (most == changes_.end() || *most == 0) return {-1, -1};
     const ContactPair& pair = problem_.pair(static_cast<std::size_t>(most - changes_.begin()));

@@ -63,7 +63,7 @@ TEST(Island, TiesJoinBlocksButAreNoContacts) {
   const std::vector<Island> islands = find_islands({true, true, true}, pairs);
   ASSERT_EQ(islands.size(), 1U);
   EXPECT_EQ(islands[0].bodies, (std::vector<int>{0, 1, 2}));
-  EXPECT_EQ(contacts_of(islands[0], pairs), (std::vector<std::array<int, 2>>{{0, 1}}));
+  EXPECT_EQ(contacts_of(islands[0], pairs), (std::vector<PairKey>{{0, 1}}));
 }
 
 TEST(Island, SetsThatCannotBeAreRefused) {
