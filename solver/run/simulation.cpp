@@ -69,7 +69,15 @@ void Simulation::displace(const std::vector<RigidDisplacement>& displacements) {
   ++state_.steps;
 }
 
+void Simulation::refuse_late(const char* call) const {
+  if (state_.has_begun())
+    throw std::logic_error(std::string(call) +
+                           " belongs to the start of a run, before contacts are detected");
+}
+
 void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
+  refuse_late("start_overlapping");
+  if (!state_.pairs.empty()) throw std::logic_error("initial overlaps are set before the initial stress");
   for (const auto& [blocks, depth] : depths) {
     if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
         system_.blocks().at(at(blocks[1])).incremental() != nullptr)
@@ -91,18 +99,22 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
 }
 
 std::optional<StressImbalance> Simulation::start_stressed() {
+  refuse_late("start_stressed");
   StressedContacts start = contacts_under_stress(system_, state_);
   for (auto& [blocks, memory] : start.contacts) state_.pairs[blocks].memory = std::move(memory);
   return start.worst;
 }
 
 void Simulation::add_bolts(std::vector<Bolt> bolts) {
+  refuse_late("add_bolts");
+  if (!system_.bolts().empty()) throw std::logic_error("all bolts of a run are added together");
   system_.set_bolts(std::move(bolts));
   state_.ledger.springs_hold(install_bolts(system_, state_));
   state_.ledger.start(system_, state_.states);
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {
+  refuse_late("settle_supported_blocks");
   std::vector<int> settled;
   for (int k = 0; k < system_.count(); ++k) {
     const BlockModel& block = system_.blocks()[at(k)];
@@ -130,10 +142,12 @@ std::vector<int> Simulation::settle_supported_blocks() {
 }
 
 StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
+  refuse_late("start_from_statics");
   return ashlar::start_from_statics(context(), goes_on);
 }
 
 void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
+  refuse_late("start_stage");
   ashlar::start_stage(system_, state_, caches_, end, was_absent);
 }
 

@@ -27,7 +27,7 @@ enum class IslandStatus {
 /// One moving block within a step. Vectors are in the block's unknowns, also those of a rigid one (rigid_body.hpp).
 struct BodyStep {
   const BlockModel* model = nullptr;
-  const BlockState* state = nullptr;
+  const BlockState* state = nullptr;  ///< at the start of the step
   Eigen::VectorXd free_change;     ///< change without forces, see time_scheme.hpp
   Eigen::VectorXd external_force;  ///< evaluated where the integrator requires it
   double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
@@ -60,7 +60,7 @@ struct BodyStep {
   [[nodiscard]] Eigen::MatrixX3d motion() const;
   /// Remembers the elastic force at the start of the step.
   void note_start_force();
-  /// `elastic.force` and the force of damping by stiffness, (p, 3). To be called before the state is updated
+  /// `elastic.force` and the force of damping by stiffness, (p, 3).
   [[nodiscard]] Eigen::MatrixX3d internal_force(const TimeScheme& scheme) const;
   /// Force of the block on its dashpots; empty: there are none.
   [[nodiscard]] Eigen::VectorXd dashpot_force(const TimeScheme& scheme) const;

@@ -18,7 +18,7 @@ class ContactChanges {
   /// Number of last iterations examined.
   static constexpr int window = 50;
 
-  /// To be called after each iteration of a static analysis.
+  /// Adds the last iteration of a static analysis.
   void note(const Simulation& simulation);
   void forget() { *this = ContactChanges(); }
 
