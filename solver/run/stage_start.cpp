@@ -37,8 +37,8 @@ void refuse_strained_ties(const BlockSystem& system, const RunState& state,
         !system.present(tied.b))
       continue;
     const Eigen::MatrixX3d gap =
-        tied.tie.a * state.states[at(tied.a)].position - tied.tie.b * state.states[at(tied.b)].position;
-    const double mean = gap.norm() / std::sqrt(tied.tie.area);
+        tied.tie->a * state.states[at(tied.a)].position - tied.tie->b * state.states[at(tied.b)].position;
+    const double mean = gap.norm() / std::sqrt(tied.tie->area);
     if (!(mean > allowed * system.settings().contact_distance)) continue;
     const auto [added, other] =
         was_absent[at(tied.a)] ? std::array{tied.a, tied.b} : std::array{tied.b, tied.a};

@@ -67,7 +67,7 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     left_out_.insert({a, b});
     Tie tie = tie_between(block_a.solid(), block_a.basis(), block_b.solid(), block_b.basis());
     if (tie.area == 0.0) continue;
-    ties_.push_back({a, b, std::move(tie), stiffness});
+    ties_.push_back({a, b, std::make_shared<const Tie>(std::move(tie)), stiffness});
     tied.push_back({a, b});
   }
   free_bodies_ = ashlar::free_bodies(blocks_, tied);

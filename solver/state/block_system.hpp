@@ -29,7 +29,7 @@ struct TieRequest {
 struct TiedBlocks {
   int a;
   int b;
-  Tie tie;
+  std::shared_ptr<const Tie> tie;  ///< not null
   double stiffness;  ///< Pa/m
 };
 

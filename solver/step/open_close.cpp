@@ -30,7 +30,6 @@ class OpenClose {
       : problem_(problem),
         tangent_(problem),
         failure_(problem),
-        augmentation_(problem),
         settings_(problem.settings()),
         result_(result),
         may_split_(!problem.scheme().is_static() && problem.pairs() >= many_pairs) {}
@@ -57,8 +56,8 @@ class OpenClose {
         outcome = minimise();
       }
       if (outcome != Outcome::converged) return outcome;
-      if (!failure_.break_joints()) {
-        if (settings_.augmented && augmentation_.adjust()) {
+      if (!failure_.break_joints(problem_)) {
+        if (settings_.augmented && augmentation_.adjust(problem_)) {
           if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
         } else if (evaluations < settings_.iteration.contact_evaluations && follow()) {
           ++evaluations;
