@@ -102,6 +102,17 @@ def test_a_notebook_shows_the_page():
     assert "<script" not in shown._repr_html_(), "the page is text of an attribute"
 
 
+def test_any_state_has_a_page(tmp_path):
+    """Frames are due every few steps only."""
+    sim = scene().simulation()
+    for _ in range(3):
+        sim.step()
+        sim.write(tmp_path / "out")
+        assert (tmp_path / "out" / "blocks.pvd").read_text().count("<DataSet") == 1
+        assert sim.summary["frames"] == 0, "frames of a folder that the simulation records into"
+    assert sim.show().html.startswith("<!DOCTYPE html>")
+
+
 @pytest.mark.skipif(not any(map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), reason="no browser")
 def test_a_picture_is_a_png(tmp_path):
     sim = scene().simulation()
