@@ -2,6 +2,7 @@
 
 import contextlib
 import html
+import importlib.metadata
 import importlib.util
 import sys
 
@@ -41,6 +42,14 @@ def in_notebook():
     return hasattr(shell, "kernel")
 
 
+def _has_widgets():
+    """Older ipywidgets, as Debian 12 has them, do not work with its kernels."""
+    try:
+        return int(importlib.metadata.version("ipywidgets").partition(".")[0]) >= 7
+    except (importlib.metadata.PackageNotFoundError, ValueError):
+        return False
+
+
 def _end_of(simulation, values, until):
     """The time (s) at which a run ends; None where it is not known: statics, searches, stages."""
     if values["analysis"]["type"] != "dynamic" or simulation.stage:
@@ -76,7 +85,7 @@ def progress_bar(simulation, values, until, wanted):
     if not wanted:
         yield _NoBar()
         return
-    if in_notebook() and importlib.util.find_spec("ipywidgets") is not None:
+    if in_notebook() and _has_widgets():
         from tqdm.notebook import tqdm  # type: ignore[import]
     else:
         from tqdm.std import tqdm  # type: ignore[import]
