@@ -69,6 +69,7 @@ void release(void* place, std::size_t /*bytes*/) {
 }  // namespace
 
 void prepare_for_missing_memory() {
+  if (std::get_terminate() == end_of_program) return;
   other_end = std::set_terminate(end_of_program);
   mp_set_memory_functions(allocate, reallocate, release);
 }

@@ -4,9 +4,9 @@
 
 namespace ashlar {
 
-/// To be called once, before anything else. GMP's allocations fail like all others, and an exception that cannot be
-/// caught (libraries declare functions noexcept that allocate) is reported before the program ends with exit status
-/// 1.
+/// From now on GMP's allocations fail like all others, and an exception that cannot be caught (libraries declare
+/// functions noexcept that allocate) is reported before the program ends with exit status 1. A second call has no
+/// effect.
 void prepare_for_missing_memory();
 
 }  // namespace ashlar

@@ -179,7 +179,9 @@ void Run::write_summary() const {
 
 void Run::write(const std::filesystem::path& folder) const {
   const FolderClaim claim(folder, ClaimPurpose::replacement);
-  const ResultFolder results(folder, whole(), simulation(), place_);
+  ResultFolder results(folder, whole(), simulation(), place_);
+  // The present state, whether a frame of it is due or not.
+  results.add_end(simulation());
   HistoryWriter history(folder / "history.csv", columns());
   for (const std::vector<double>& row : rows_)
     history.append(static_cast<std::int64_t>(row.front()), std::vector<double>(row.begin() + 1, row.end()));

@@ -1,4 +1,4 @@
-// Meshes of tetrahedra: Gmsh's MSH files, as text of versions 2.0 to 2.2 and 4.1, and their surfaces. Files without
+// Meshes of tetrahedra: Gmsh's MSH files, text and binary, of versions 2.0 to 2.2 and 4.1, and their surfaces. Files without
 // tetrahedra contain these surfaces.
 #pragma once
 
@@ -24,13 +24,13 @@ struct VolumeMesh {
   std::vector<int> group_of;  ///< (#tetrahedra or #triangles), indices into groups
 };
 
-/// Reads the text of an MSH file. Ignored are points and lines of the mesh, triangles beside tetrahedra, and other
-/// sections. Inverted tetrahedra are reversed.
-/// @throws MeshFileError with line and column: another version, a binary file, malformed or truncated text,
-/// inconsistent numbers of nodes or elements, an unknown node, a surface or volume missing in $Entities, groups after
-/// the elements, elements of the volume other than tetrahedra with four nodes, a tetrahedron without volume or given
-/// twice, a volume in several physical groups; without tetrahedra: no triangles, other elements of surfaces, a
-/// surface in several physical groups
+/// Reads a whole MSH file. Elements of second order are read by their corners: their edges become straight. Ignored
+/// are points and lines of the mesh, triangles beside tetrahedra, and other sections. Inverted tetrahedra are reversed.
+/// @throws MeshFileError with line and column, of a binary file with the byte: another version, malformed or
+/// truncated text, inconsistent numbers of nodes or elements, an unknown node, a surface or volume missing in
+/// $Entities, groups after the elements, elements of the volume other than tetrahedra with four or ten nodes, a
+/// tetrahedron without volume or given twice, a volume in several physical groups; without tetrahedra: no triangles,
+/// other elements of surfaces, a surface in several physical groups
 [[nodiscard]] VolumeMesh read_msh(std::string_view text);
 
 /// True if the file name extension is that of a volume mesh.

@@ -85,7 +85,7 @@ class AdaptiveSurface {
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;
   [[nodiscard]] SurfaceDivision division() const { return {forest_.cuts(), wanted()}; }
   /// Restores the division of another surface of the same solid, order and levels, with the same numbers of cells and
-  /// points. To be called before move(). @throws std::invalid_argument if it does not belong to such a surface
+  /// points. As a new one, it has no shape until move(). @throws std::invalid_argument if it does not belong to such a surface
   void restore(const SurfaceDivision& division);
 
  private:

@@ -51,9 +51,10 @@ class BlockSurface {
 
   /// See AdaptiveSurface::wanted; empty for affine blocks.
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;
-  /// Present division; empty for affine blocks. To be restored into the surface of an equal block before move().
-  /// @throws std::invalid_argument if it belongs to another surface
+  /// Present division; empty for affine blocks.
   [[nodiscard]] SurfaceDivision division() const;
+  /// Takes over the division of the surface of an equal block. As a new one, it has no shape until move().
+  /// @throws std::invalid_argument if it belongs to another surface
   void restore(const SurfaceDivision& division);
 
  private:

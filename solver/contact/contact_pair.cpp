@@ -24,7 +24,7 @@ double reduced_mass(const BlockModel& a, const BlockModel& b) {
 ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, ContactPatch patch,
                          std::vector<PointMemory> memory, const PatchStart& start)
     : ContactPair(bodies, law, patch.points, std::move(memory),
-                  patch.rows == nullptr ? PairRows(bodies.of_a, bodies.of_b, patch.points, nullptr)
+                  patch.rows == nullptr ? PairRows(bodies.of_a, bodies.of_b, patch.points)
                                         : PairRows(bodies.of_a, bodies.of_b, patch.points, patch.rows),
                   false) {
   cuts_ = std::move(patch.cuts);
@@ -38,10 +38,10 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, ContactP
   if (start.freezes_failure) freeze_failure();
 }
 
-ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffness)
+ContactPair::ContactPair(const PairBodies& bodies, std::shared_ptr<const Tie> tie, double stiffness)
     : ContactPair(bodies, unbreakable_law(stiffness),
-                  tie_points(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)),
-                  tie_memory(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)), &tie) {}
+                  tie_points(tie_gap(*tie, *bodies.of_a.state, *bodies.of_b.state)),
+                  tie_memory(tie_gap(*tie, *bodies.of_a.state, *bodies.of_b.state)), tie) {}
 
 void ContactPair::continue_springs() {
   std::vector<double> rests;
@@ -54,7 +54,7 @@ void ContactPair::continue_springs() {
 }
 
 ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-                         std::vector<PointMemory> memory, const Tie* tie)
+                         std::vector<PointMemory> memory, std::shared_ptr<const Tie> tie)
     : ContactPair(bodies, law, points, std::move(memory), PairRows(bodies.of_a, bodies.of_b, points, tie),
                   tie != nullptr) {}
 

@@ -49,9 +49,9 @@ class ContactPair {
               std::vector<PointMemory> memory, const PatchStart& start = {});
 
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides. Its gap and slip are
-  /// the components of the function's coefficient along x, y and z. @param tie must outlive this
+  /// the components of the function's coefficient along x, y and z. @param tie not null
   /// @param stiffness Pa/m
-  ContactPair(const PairBodies& bodies, const Tie& tie, double stiffness);
+  ContactPair(const PairBodies& bodies, std::shared_ptr<const Tie> tie, double stiffness);
   [[nodiscard]] bool tied() const { return kind_.tied; }
   /// True if its springs represent rigid contact.
   [[nodiscard]] bool rigid() const { return kind_.rigid; }
@@ -223,7 +223,7 @@ class ContactPair {
   };
 
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-              std::vector<PointMemory> memory, const Tie* tie);
+              std::vector<PointMemory> memory, std::shared_ptr<const Tie> tie);
   /// From points whose rows are known.
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, PairRows rows, bool tied);

@@ -58,7 +58,7 @@ PairDepth depth_now(const MeasuredDepth& measured, const std::vector<BlockModel>
 
 bool by_blocks(const MeasuredDepth& x, const MeasuredDepth& y) {
   const auto key = [](const PairDepth& depth) {
-    const auto [low, high] = std::minmax(depth.blocks[0], depth.blocks[1]);
+    const auto [low, high] = key_of(depth.blocks);
     return std::array{low, high, depth.blocks[0]};
   };
   return key(x.pair) < key(y.pair);
@@ -219,14 +219,14 @@ bool DepthAudit::is_convex(int block, const std::vector<BlockModel>& blocks) {
   return finder->convex();
 }
 
-void DepthAudit::prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges) {
+void DepthAudit::prepare(const BlockPair& blocks, std::size_t points, std::size_t edges) {
   ClearParts& clear = clear_[blocks];
   const bool convex = finders_[at(blocks[1])]->convex();
   if (clear.points.size() != (convex ? 0 : points)) clear.points.assign(convex ? 0 : points, {});
   if (clear.edges.size() != (convex ? 0 : edges)) clear.edges.assign(convex ? 0 : edges, {});
 }
 
-std::vector<MeasuredDepth> DepthAudit::measure(const std::vector<std::array<int, 2>>& pairs,
+std::vector<MeasuredDepth> DepthAudit::measure(const std::vector<PairKey>& pairs,
                                                const std::vector<BlockModel>& blocks,
                                                const std::vector<BlockState>& states,
                                                const std::vector<BlockSurface>& surfaces,
@@ -287,15 +287,15 @@ Audit DepthAudit::run(const std::vector<BlockModel>& blocks, const std::vector<B
     audit.positions.push_back(states[k].position);
     audit.boxes.push_back(audited_[k].box);
   }
-  const auto is_live = [&](const std::array<int, 2>& pair) {
+  const auto is_live = [&](const PairKey& pair) {
     return scope.moving[at(pair[0])] || scope.moving[at(pair[1])];
   };
-  const auto is_asked = [&](const std::array<int, 2>& pair) {
+  const auto is_asked = [&](const PairKey& pair) {
     if (!is_live(pair)) return false;
     if (moved[at(pair[0])] || moved[at(pair[1])]) return true;
     return scope.fine && !(is_convex(pair[0], blocks) && is_convex(pair[1], blocks));
   };
-  std::vector<std::array<int, 2>> pairs;
+  std::vector<PairKey> pairs;
   if (!audit.moved.empty() || scope.fine) pairs = meeting_boxes(boxes);
   std::erase_if(pairs, [&](const auto& pair) { return !is_asked(pair) || !scope.pairs(pair[0], pair[1]); });
   std::vector<bool> placed = moved;

@@ -19,16 +19,17 @@
 #include "geometry/any_solid/solid_depth.hpp"
 #include "geometry/boxes/box.hpp"
 #include "mechanics/block/block_surface.hpp"
+#include "solver/block_pair.hpp"
 
 namespace ashlar {
 
 /// The deepest point of one block in another one.
 struct PairDepth {
-  std::array<int, 2> blocks;  ///< the block with the point, then the one that contains it
-  double depth = 0.0;         ///< m, > 0
-  Vector3 place;              ///< current coordinates, m
-  int face = -1;              ///< nearest face of the second block's solid
-  Vector3 normal;             ///< outward unit normal of that face, current coordinates
+  BlockPair blocks;    ///< the block with the point, then the one that contains it
+  double depth = 0.0;  ///< m, > 0
+  Vector3 place;       ///< current coordinates, m
+  int face = -1;       ///< nearest face of the second block's solid
+  Vector3 normal;      ///< outward unit normal of that face, current coordinates
   std::array<Vector3, 2>
       materials;  ///< the point and the closest point of the face, reference coordinates, m
 };
@@ -123,10 +124,10 @@ class DepthAudit {
   /// True if the solid of a block is convex.
   [[nodiscard]] bool is_convex(int block, const std::vector<BlockModel>& blocks);
   /// Allocates the clear parts of the first block near the second.
-  void prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges);
+  void prepare(const BlockPair& blocks, std::size_t points, std::size_t edges);
 
   /// The deepest points of pairs of placed blocks in each other.
-  [[nodiscard]] std::vector<MeasuredDepth> measure(const std::vector<std::array<int, 2>>& pairs,
+  [[nodiscard]] std::vector<MeasuredDepth> measure(const std::vector<PairKey>& pairs,
                                                    const std::vector<BlockModel>& blocks,
                                                    const std::vector<BlockState>& states,
                                                    const std::vector<BlockSurface>& surfaces,
@@ -134,7 +135,7 @@ class DepthAudit {
 
   std::vector<AuditedBlock> audited_;                     ///< those of fixed blocks are kept
   std::vector<std::optional<SolidDepthFinder>> finders_;  ///< of blocks that have been near others
-  std::map<std::array<int, 2>, ClearParts>
+  std::map<BlockPair, ClearParts>
       clear_;  ///< of a block (first) near another one; empty: the other one is convex
 };
 

@@ -128,7 +128,7 @@ Retractions::Retractions(const PairHistories& histories, const std::vector<bool>
   }
 }
 
-void Retractions::add(const std::array<int, 2>& blocks, const Vector3& normal, double depth) {
+void Retractions::add(const PairKey& blocks, const Vector3& normal, double depth) {
   const double height = depth > 0.0 ? 2.0 * depth : depth;
   const auto add_to = [&](int block, int other, const Vector3& direction) {
     std::vector<Bundle>& bundles = ways_[block];
@@ -149,8 +149,8 @@ void Retractions::add(const std::array<int, 2>& blocks, const Vector3& normal, d
   add_to(blocks[1], blocks[0], -normal);
 }
 
-void Retractions::add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a,
-                               const PlacedSurface& b, const PairContacts& contacts) {
+void Retractions::add_touching(const PairKey& blocks, const PlacedSurface& a, const PlacedSurface& b,
+                               const PairContacts& contacts) {
   const double rounding = coordinate_rounding(a, b);
   for (const CellOverlap& overlap : contacts.overlaps)
     add(blocks, overlap.frame.w, rounding - *std::min_element(overlap.gaps.begin(), overlap.gaps.end()));
@@ -217,10 +217,9 @@ std::vector<Retraction> Retractions::of_pair(int a, int b, const ContactNormals&
 bool Retractions::stands(const Retraction& way, const std::vector<FoundContacts>& found,
                          const std::function<const PlacedSurface&(int)>& placed,
                          const BlockCompression& compression_of) const {
-  const auto pair = std::lower_bound(found.begin(), found.end(), way.out_of,
-                                     [](const FoundContacts& contacts, const std::array<int, 2>& blocks) {
-                                       return contacts.blocks < blocks;
-                                     });
+  const auto pair = std::lower_bound(
+      found.begin(), found.end(), way.out_of,
+      [](const FoundContacts& contacts, const PairKey& blocks) { return contacts.blocks < blocks; });
   if (pair == found.end() || pair->blocks != way.out_of) return false;
   const PlacedSurface& a = placed(pair->blocks[0]);
   const PlacedSurface& b = placed(pair->blocks[1]);

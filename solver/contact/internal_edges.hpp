@@ -16,15 +16,16 @@
 #include <vector>
 
 #include "geometry/contacts/motion_check.hpp"
+#include "solver/block_pair.hpp"
 #include "solver/contact/contact_finder.hpp"
 
 namespace ashlar {
 
 /// A motion of a block a relative to a block b that takes either of them out of its penetration.
 struct Retraction {
-  Vector3 direction;          ///< unit
-  double height;              ///< m; negative: remaining gap until contact
-  std::array<int, 2> out_of;  ///< the two penetrating blocks, the lower number first
+  Vector3 direction;  ///< unit
+  double height;      ///< m; negative: remaining gap until contact
+  PairKey out_of;     ///< the two penetrating blocks, the lower number first
   /// True if they are a and b: only steep sides may then be at an internal edge, otherwise all sides that are not
   /// normal to the direction.
   bool own;
@@ -49,9 +50,9 @@ class Retractions {
   Retractions(const PairHistories& histories, const std::vector<bool>& moving);
   /// Adds two blocks a < b that penetrate or are about to touch. @param normal out of b. @param depth m;
   /// negative: the gap between them
-  void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);
+  void add(const PairKey& blocks, const Vector3& normal, double depth);
   /// Adds all faces and vertices that lie or come to lie on a face.
-  void add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
+  void add_touching(const PairKey& blocks, const PlacedSurface& a, const PlacedSurface& b,
                     const PairContacts& contacts);
   /// Retractions of a pair, without those along the normals of all its contacts, which they cannot undo.
   /// @param compression_of empty: blocks are rigid

@@ -17,7 +17,7 @@ bool within(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& 
 
 }  // namespace
 
-void OccludedFaces::add(const std::array<int, 2>& blocks, const std::vector<CellOverlap>& overlaps,
+void OccludedFaces::add(const PairKey& blocks, const std::vector<CellOverlap>& overlaps,
                         const SubFaceSurface& a, const SubFaceSurface& b, double reach) {
   for (const CellOverlap& overlap : overlaps) {
     const bool flush = std::all_of(overlap.gaps.begin(), overlap.gaps.end(),
@@ -40,7 +40,7 @@ bool OccludedFaces::hides(int block, int face, int but, const Vector3& place) co
          });
 }
 
-OccludedPlaces OccludedFaces::of_pair(const std::array<int, 2>& blocks) const {
+OccludedPlaces OccludedFaces::of_pair(const PairKey& blocks) const {
   const auto& [a, b] = blocks;
   return {[this, a = a, b = b](int face, const Vector3& place) { return hides(a, face, b, place); },
           [this, a = a, b = b](int face, const Vector3& place) { return hides(b, face, a, place); }};

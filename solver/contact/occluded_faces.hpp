@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/contacts/contact_search.hpp"
+#include "solver/block_pair.hpp"
 
 namespace ashlar {
 
@@ -16,13 +17,13 @@ class OccludedFaces {
  public:
   /// Adds the faces of two blocks that lie on each other.
   /// @param reach m, largest gap of such faces
-  void add(const std::array<int, 2>& blocks, const std::vector<CellOverlap>& overlaps,
-           const SubFaceSurface& a, const SubFaceSurface& b, double reach);
+  void add(const PairKey& blocks, const std::vector<CellOverlap>& overlaps, const SubFaceSurface& a,
+           const SubFaceSurface& b, double reach);
   [[nodiscard]] bool empty() const { return covers_.empty(); }
   /// True if a face of a block lies on any block other than `but` at a place in its plane.
   [[nodiscard]] bool hides(int block, int face, int but, const Vector3& place) const;
   /// Occluded places of a pair of blocks. This must outlive the result.
-  [[nodiscard]] OccludedPlaces of_pair(const std::array<int, 2>& blocks) const;
+  [[nodiscard]] OccludedPlaces of_pair(const PairKey& blocks) const;
 
  private:
   struct Cover {

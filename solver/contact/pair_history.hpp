@@ -10,12 +10,10 @@
 
 #include "geometry/contacts/convex_search.hpp"
 #include "mechanics/contact/contact_memory.hpp"
+#include "solver/block_pair.hpp"
 #include "solver/contact/contact_cache.hpp"
 
 namespace ashlar {
-
-/// Two blocks, the lower number first.
-using PairKey = std::array<int, 2>;
 
 /// A pair of blocks that was found apart.
 struct Clearance {

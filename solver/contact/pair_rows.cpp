@@ -77,7 +77,7 @@ std::shared_ptr<const PairRows::Values> PairRows::values_of(const BlockModel& a,
 }
 
 PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
-                   const Tie* tie)
+                   std::shared_ptr<const Tie> tie)
     : PairRows(a, b, points,
                tie == nullptr
                    ? values_of(*a.model, *b.model, points)
@@ -89,13 +89,13 @@ PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector
     : PairRows(a, b, points, std::move(values), nullptr) {}
 
 PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
-                   std::shared_ptr<const Values> values, const Tie* tie)
+                   std::shared_ptr<const Values> values, std::shared_ptr<const Tie> tie)
     : values_(std::move(values)),
       frames_(frames_of(points)),
       count_(static_cast<Eigen::Index>(points.size())),
-      tie_(tie),
+      tie_(std::move(tie)),
       // Forces of a tie are along the gap, so that their couple is negligible.
-      free_pair_(tie == nullptr && is_free(a) && is_free(b)) {
+      free_pair_(tie_ == nullptr && is_free(a) && is_free(b)) {
   if (!free_pair_) return;
   deformation_a_ = mean_deformation(a);
   deformation_b_ = mean_deformation(b);

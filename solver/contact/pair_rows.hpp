@@ -81,9 +81,9 @@ class PairRows {
   [[nodiscard]] static std::shared_ptr<const Values> values_of(const BlockModel& a, const BlockModel& b,
                                                                const std::vector<ContactPoint>& points);
 
-  /// @param tie null for contacts; otherwise points represent its functions. Must outlive this
+  /// @param tie null for contacts; otherwise points represent its functions
   PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
-           const Tie* tie);
+           std::shared_ptr<const Tie> tie = nullptr);
   /// From known rows of contacts. @param values values_of() the points
   PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
            std::shared_ptr<const Values> values);
@@ -141,7 +141,7 @@ class PairRows {
               std::vector<ContactPoint>& points);
 
   PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
-           std::shared_ptr<const Values> values, const Tie* tie);
+           std::shared_ptr<const Values> values, std::shared_ptr<const Tie> tie);
   /// Normal, tangent 1 and tangent 2 of a point, as columns.
   [[nodiscard]] auto frame(Eigen::Index point) const { return frames_.middleCols<3>(3 * point); }
   /// Forces along normals and tangents as forces along x, y, z. @param forces (3 #points). @return (3, #points)
@@ -151,7 +151,7 @@ class PairRows {
   Eigen::Matrix3Xd frames_;      ///< (3, 3 #points)
   Eigen::Matrix3Xd prescribed_;  ///< change of both by moving supports; empty: none
   Eigen::Index count_;           ///< of points
-  const Tie* tie_;
+  std::shared_ptr<const Tie> tie_;
   bool free_pair_;                 ///< neither block is supported or tied otherwise
   MeanDeformation deformation_a_;  ///< of free pairs
   MeanDeformation deformation_b_;

@@ -26,9 +26,8 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
                        LawOfPair law, const SimulationSettings& settings, const std::vector<TieRequest>& ties,
                        std::vector<bool> absent)
     : system_(std::move(blocks), std::move(law), settings, ties, std::move(absent)),
-      contacts_(system_),
-      factors_(settings.linear_method),
-      audit_(system_.blocks().size()) {
+      caches_{StepContacts(system_), FactorCache(settings.linear_method),
+              DepthAudit(system_.blocks().size())} {
   state_.next_step = settings.time_step;
   for (std::size_t k = 0; k < system_.blocks().size(); ++k) {
     const BlockModel& block = system_.blocks()[k];
@@ -47,7 +46,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
 }
 
 RunContext Simulation::context() {
-  return {system_, state_, contacts_, factors_, audit_, fault_};
+  return {system_, state_, caches_, fault_};
 }
 
 RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& multiplied) const {
@@ -70,7 +69,15 @@ void Simulation::displace(const std::vector<RigidDisplacement>& displacements) {
   ++state_.steps;
 }
 
+void Simulation::refuse_late(const char* call) const {
+  if (state_.has_begun())
+    throw std::logic_error(std::string(call) +
+                           " belongs to the start of a run, before contacts are detected");
+}
+
 void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
+  refuse_late("start_overlapping");
+  if (!state_.pairs.empty()) throw std::logic_error("initial overlaps are set before the initial stress");
   for (const auto& [blocks, depth] : depths) {
     if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
         system_.blocks().at(at(blocks[1])).incremental() != nullptr)
@@ -80,7 +87,7 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   if (depths.empty()) return;
   // The initial depth of contacts determines the depth that later contacts may have without force.
   std::map<PairKey, double> placed;
-  StepContacts contacts(system_);  // a stage moves blocks before contacts_ evaluates any
+  StepContacts contacts(system_);  // a stage moves blocks before its own are evaluated
   const std::vector<FoundContacts> found = contacts.detect(system_, state_, 0.0);
   for (const ContactPair& pair : contacts.pairs(system_, state_, found, PairUse::statics)) {
     double& deepest = placed[{pair.a(), pair.b()}];
@@ -92,19 +99,22 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
 }
 
 std::optional<StressImbalance> Simulation::start_stressed() {
+  refuse_late("start_stressed");
   StressedContacts start = contacts_under_stress(system_, state_);
   for (auto& [blocks, memory] : start.contacts) state_.pairs[blocks].memory = std::move(memory);
   return start.worst;
 }
 
 void Simulation::add_bolts(std::vector<Bolt> bolts) {
+  refuse_late("add_bolts");
+  if (!system_.bolts().empty()) throw std::logic_error("all bolts of a run are added together");
   system_.set_bolts(std::move(bolts));
   state_.ledger.springs_hold(install_bolts(system_, state_));
   state_.ledger.start(system_, state_.states);
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {
-  const RunContext run = context();
+  refuse_late("settle_supported_blocks");
   std::vector<int> settled;
   for (int k = 0; k < system_.count(); ++k) {
     const BlockModel& block = system_.blocks()[at(k)];
@@ -120,7 +130,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < system_.settings().settling_steps; ++step) {
       const double way = (*position - state.position).norm();
-      start_carried_step(run, k, block.carried_on(*position));
+      start_carried_step(system_, state_, caches_, k, block.carried_on(*position));
       // Steps that no longer shrink are rounding errors.
       if (!(way < last)) break;
       last = way;
@@ -132,11 +142,13 @@ std::vector<int> Simulation::settle_supported_blocks() {
 }
 
 StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
+  refuse_late("start_from_statics");
   return ashlar::start_from_statics(context(), goes_on);
 }
 
 void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
-  ashlar::start_stage(context(), end, was_absent);
+  refuse_late("start_stage");
+  ashlar::start_stage(system_, state_, caches_, end, was_absent);
 }
 
 bool Simulation::reached(double end_time) const {
@@ -152,14 +164,14 @@ StaticStatus Simulation::static_step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time, double far) {
-  wake_all(context());
+  wake_all(system_, state_);
   const StaticStatus status = ashlar::static_step(context(), end_time, far);
   const bool ended = status == StaticStatus::equilibrium || status == StaticStatus::not_converged;
-  return ended ? rigid_verdict(context(), end_time, status) : status;
+  return ended ? rigid_verdict(system_, state_, end_time, status) : status;
 }
 
 void Simulation::wake() {
-  wake_all(context());
+  wake_all(system_, state_);
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
@@ -167,20 +179,20 @@ std::vector<MovingBlock> Simulation::moving_blocks() const {
 }
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {
-  return ashlar::loose_blocks(context());
+  return ashlar::loose_blocks(system_, state_, caches_.contacts);
 }
 
 void Simulation::set_load_factor(int block, int load, double factor) {
   if (!std::isfinite(factor)) throw std::invalid_argument("the factor of a load is a finite number");
   system_.set_load_factor(block, load, factor);
-  wake_all(context());
+  wake_all(system_, state_);
   state_.statics = StaticState{};
 }
 
 DroppedByOrder Simulation::change_order(int block, int order) {
-  wake_all(context());
+  wake_all(system_, state_);
   state_.sleep.rests.at(at(block)) = BlockRest{};
-  return ashlar::change_order(context(), block, order);
+  return ashlar::change_order(system_, state_, caches_, block, order);
 }
 
 void Simulation::set_time_step(double step) {
@@ -198,19 +210,19 @@ void Simulation::set_chord_tolerance(double tolerance) {
 }
 
 ContactExplanation Simulation::explain_contacts(int a, int b) const {
-  return ashlar::explain_contacts(system_, state_, contacts_.finder().state(), a, b);
+  return ashlar::explain_contacts(system_, state_, caches_.contacts.finder().state(), a, b);
 }
 
 SimulationSnapshot Simulation::snapshot() const {
-  return snapshot_of(system_, state_, contacts_, factors_);
+  return snapshot_of(system_, state_, caches_);
 }
 
 void Simulation::restore(const SimulationSnapshot& snapshot) {
-  ashlar::restore(context(), snapshot);
+  ashlar::restore(system_, state_, caches_, snapshot);
 }
 
 std::optional<StateFault> Simulation::audit() {
-  return audit_present(context()).fault;
+  return audit_present(system_, state_, caches_).fault;
 }
 
 Vector3 Simulation::momentum() const {
@@ -230,7 +242,7 @@ Vector3 Simulation::angular_momentum() const {
 }
 
 SimulationCounts Simulation::counts() const {
-  return counts_of(state_, contacts_, factors_);
+  return counts_of(state_, caches_);
 }
 
 }  // namespace ashlar

@@ -57,35 +57,38 @@ class Simulation {
   /// Empty: no joint holds water.
   [[nodiscard]] const JointPressure& joint_pressure() const { return joint_pressure_; }
 
-  /// Contacts of blocks with initial stress begin with its forces (initial_stress.hpp), before the first step and after
-  /// start_overlapping().
+  /// @name The start of a run
+  /// Nothing changes, and std::logic_error is thrown, once contacts have been detected: by a step, an iteration, a static
+  /// start, the start of a stage, or in the snapshot restored last.
+  /// @{
+  /// Contacts of blocks with initial stress begin with its forces (initial_stress.hpp).
   /// @return the block that is farthest from balance
   std::optional<StressImbalance> start_stressed();
-  /// Lets pairs of blocks with an initial overlap touch without force (notes/known_overlaps.md). To be called before
-  /// the first step.
+  /// Lets pairs of blocks with an initial overlap touch without force (notes/known_overlaps.md).
   /// @param depths by pair, m, >= 0. @throws std::invalid_argument if a block is incremental: its material points do
-  /// not store their initial places
+  /// not store their initial places; std::logic_error after start_stressed(), too, whose forces depend on overlaps
   void start_overlapping(const std::map<PairKey, double>& depths);
 
-  /// Adds bolts and props, those that are installed without forces but for their pretension, in the present state. To
-  /// be called once, before the first step. @throws std::invalid_argument if a block of a bolt is incremental
+  /// Adds bolts and props, those that are installed without forces but for their pretension, in the present state.
+  /// @throws std::invalid_argument if a block of a bolt is incremental; std::logic_error if there are bolts, too
   void add_bolts(std::vector<Bolt> bolts);
 
   /// Moves every block whose supports prevent all rigid motions to its equilibrium under gravity and the loads at
-  /// time 0, at rest, without contacts. To be called before the first step. Incremental blocks get there in at most
+  /// time 0, at rest, without contacts. Incremental blocks get there in at most
   /// settings.settling_steps steps. @return the blocks in equilibrium
   std::vector<int> settle_supported_blocks();
 
   /// Moves the blocks to their equilibrium under gravity and the loads at time 0, with contacts, by a static
-  /// analysis, and then sets their initial velocities (static_start.hpp). To be called before the first step.
+  /// analysis, and then sets their initial velocities (static_start.hpp).
   /// @param goes_on called before each iteration: false ends the analysis
   /// @return status of the analysis, balancing if it was ended; unless it is equilibrium all blocks are as placed
   [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& goes_on = [] { return true; });
 
-  /// Continues from the end of a simulation of the same blocks (stage_start.hpp). To be called before the first step.
+  /// Continues from the end of a simulation of the same blocks (stage_start.hpp).
   /// @param was_absent in it, by block
   /// @throws std::invalid_argument if it has other blocks or other orders
   void start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent);
+  /// @}
 
   /// True if the remaining time up to `end_time` is within rounding error or less than 1e-9 of a step.
   [[nodiscard]] bool reached(double end_time) const;
@@ -146,7 +149,7 @@ class Simulation {
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return system_.blocks(); }
   [[nodiscard]] const std::vector<BlockState>& states() const { return state_.states; }
   /// Surfaces in the last step's search, and their origins.
-  [[nodiscard]] const ContactFinder& finder() const { return contacts_.finder(); }
+  [[nodiscard]] const ContactFinder& finder() const { return caches_.contacts.finder(); }
   [[nodiscard]] const StepReport& report() const { return state_.report; }
   [[nodiscard]] const std::vector<PairRecord>& contacts() const { return state_.records; }
   [[nodiscard]] const PairHistories& histories() const { return state_.pairs; }
@@ -180,12 +183,12 @@ class Simulation {
 
  private:
   [[nodiscard]] RunContext context();
+  /// @throws std::logic_error if contacts have been detected. @param call name of the function of the start
+  void refuse_late(const char* call) const;
 
   BlockSystem system_;
   RunState state_;
-  StepContacts contacts_;
-  FactorCache factors_;
-  DepthAudit audit_;
+  StepCaches caches_;
   std::optional<StateFault> fault_;
   JointPressure joint_pressure_;
 };

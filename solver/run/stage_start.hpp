@@ -13,10 +13,11 @@
 
 namespace ashlar {
 
-/// To be called before the first step. Blocks that were absent start where this simulation has placed them.
+/// Starts a run whose contacts have not been detected yet. Blocks that were absent start where it has placed them.
 /// @param end of the stage before. @param was_absent in it, by block
 /// @throws std::invalid_argument if it has other blocks or other orders, or if a block that was absent is tied to one that
 /// has moved
-void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent);
+void start_stage(BlockSystem& system, RunState& state, StepCaches& caches, const SimulationSnapshot& end,
+                 const std::vector<bool>& was_absent);
 
 }  // namespace ashlar

@@ -57,7 +57,7 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     roundoff_force_.push_back(block.fixed() ? 0.0 : block.force_rounding());
   asked_gradients_.resize(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
-  std::vector<std::array<int, 2>> tied;
+  std::vector<PairKey> tied;
   for (const auto& [a, b, stiffness] : ties) {
     if (!present(a) || !present(b)) continue;
     const BlockModel& block_a = blocks_[at(a)];
@@ -67,7 +67,7 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     left_out_.insert({a, b});
     Tie tie = tie_between(block_a.solid(), block_a.basis(), block_b.solid(), block_b.basis());
     if (tie.area == 0.0) continue;
-    ties_.push_back({a, b, std::move(tie), stiffness});
+    ties_.push_back({a, b, std::make_shared<const Tie>(std::move(tie)), stiffness});
     tied.push_back({a, b});
   }
   free_bodies_ = ashlar::free_bodies(blocks_, tied);
@@ -105,7 +105,7 @@ bool BlockSystem::any_incremental() const {
                      [](const BlockModel& block) { return block.incremental() != nullptr; });
 }
 
-double BlockSystem::smaller_size(const std::array<int, 2>& blocks) const {
+double BlockSystem::smaller_size(const BlockPair& blocks) const {
   return std::min(block_size(blocks_[at(blocks[0])]), block_size(blocks_[at(blocks[1])]));
 }
 

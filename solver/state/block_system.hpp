@@ -12,6 +12,7 @@
 #include "mechanics/block/block_model.hpp"
 #include "mechanics/contact/joint_law.hpp"
 #include "mechanics/contact/tie.hpp"
+#include "solver/block_pair.hpp"
 #include "solver/bolts/bolt.hpp"
 #include "solver/settings.hpp"
 
@@ -28,7 +29,7 @@ struct TieRequest {
 struct TiedBlocks {
   int a;
   int b;
-  Tie tie;
+  std::shared_ptr<const Tie> tie;  ///< not null
   double stiffness;  ///< Pa/m
 };
 
@@ -61,7 +62,7 @@ class BlockSystem {
   [[nodiscard]] bool is_tied(int block) const;
   [[nodiscard]] bool are_tied(int a, int b) const;
   /// Pairs without contact search, the lower block first.
-  [[nodiscard]] const std::set<std::array<int, 2>>& left_out() const { return left_out_; }
+  [[nodiscard]] const std::set<PairKey>& left_out() const { return left_out_; }
   /// Sets of blocks that rotate together and are supported by contacts only (free_bodies.hpp).
   [[nodiscard]] const std::vector<std::vector<int>>& free_bodies() const { return free_bodies_; }
   /// Size of the rounding errors of a block's internal force, N m^-3/2.
@@ -77,7 +78,7 @@ class BlockSystem {
   /// @throws std::invalid_argument as BlockModel::set_reaction
   void set_reaction(int block, Eigen::MatrixX3d reaction);
   /// block_size of the smaller of two blocks, m.
-  [[nodiscard]] double smaller_size(const std::array<int, 2>& blocks) const;
+  [[nodiscard]] double smaller_size(const BlockPair& blocks) const;
   [[nodiscard]] int unknowns() const;
   /// By block: true if its supports, or those of blocks tied to it, prevent all rigid motions.
   [[nodiscard]] std::vector<bool> held_without_contacts() const;
@@ -109,7 +110,7 @@ class BlockSystem {
   SimulationSettings settings_;
   std::vector<TiedBlocks> ties_;
   std::vector<Bolt> bolts_;
-  std::set<std::array<int, 2>> left_out_;
+  std::set<PairKey> left_out_;
   std::vector<std::vector<int>> free_bodies_;
   std::vector<double> roundoff_force_;
   std::vector<std::shared_ptr<const Eigen::MatrixXd>> asked_gradients_;  ///< shared by equal blocks

@@ -6,7 +6,7 @@
 namespace ashlar {
 
 std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
-                                          const std::vector<std::array<int, 2>>& ties) {
+                                          const std::vector<PairKey>& ties) {
   UnionFind tied(blocks.size());
   for (const auto& [a, b] : ties) tied.unite(a, b);
   std::vector<std::vector<int>> sets(blocks.size());

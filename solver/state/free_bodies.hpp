@@ -1,10 +1,10 @@
 // Sets of blocks that rotate together and are supported by contacts only.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
+#include "solver/block_pair.hpp"
 
 namespace ashlar {
 
@@ -12,6 +12,6 @@ namespace ashlar {
 /// other. Excludes fixed, supported and incremental blocks and all blocks tied to one.
 /// @param ties pairs of tied blocks. @return increasing block indices, sets in the order of their first
 [[nodiscard]] std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
-                                                        const std::vector<std::array<int, 2>>& ties);
+                                                        const std::vector<PairKey>& ties);
 
 }  // namespace ashlar

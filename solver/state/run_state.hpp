@@ -1,12 +1,12 @@
 // All data of a run that change from step to step, as plain values: a copy is a snapshot of the run.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
+#include "solver/block_pair.hpp"
 #include "solver/bolts/bolt.hpp"
 #include "solver/contact/contact_finder.hpp"
 #include "solver/contact/depth_audit.hpp"
@@ -44,7 +44,7 @@ struct StateFault {
   RejectionReason reason;  ///< not_finite, inside_out, too_deep or open_close_not_settled
   /// Both indices are the block of a single one; too_deep: the first is in the second; open_close_not_settled: blocks
   /// of the pair whose contact points have changed state most often
-  std::array<int, 2> blocks;
+  BlockPair blocks;
   double depth = 0.0;               ///< m, of too_deep
   double allowed = 0.0;             ///< m
   Vector3 place = Vector3::Zero();  ///< m
@@ -89,11 +89,11 @@ struct StepReport {
 
 /// Largest penetration of any block in another one.
 struct DeepestPoint {
-  std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: no penetration so far
-  double depth = 0.0;                    ///< m, beyond the initial overlap
-  double share = 0.0;                    ///< depth over the size of the smaller block
-  double time = 0.0;                     ///< s
-  Vector3 place = Vector3::Zero();       ///< m
+  BlockPair blocks = {-1, -1};      ///< the first is in the second; -1: no penetration so far
+  double depth = 0.0;               ///< m, beyond the initial overlap
+  double share = 0.0;               ///< depth over the size of the smaller block
+  double time = 0.0;                ///< s
+  Vector3 place = Vector3::Zero();  ///< m
 };
 
 /// Friction at points that slid on multipliers, compared with Coulomb's law for their normal forces.

@@ -1,10 +1,10 @@
 // State of a static analysis (statics/static_analysis.hpp) between iterations.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
+#include "solver/block_pair.hpp"
 
 namespace ashlar {
 
@@ -24,7 +24,7 @@ struct StaticProgress {
 /// Onset of motion of blocks without equilibrium, since the last iteration in equilibrium, or in which a joint
 /// failed.
 struct StaticOnset {
-  std::vector<std::array<int, 2>> sliding;   ///< joints that slid in the last iteration
+  std::vector<PairKey> sliding;              ///< joints that slid in the last iteration
   double least_residual = 0.0;               ///< smallest sum of squared residuals of blocks, N^2
   std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
   bool rigid = false;                        ///< true if these are those of rigid blocks

@@ -22,18 +22,19 @@ Eigen::MatrixX3d residual_of(const TimeScheme& scheme, const BodyStep& body) {
 
 class MotionExtrapolation {
  public:
-  MotionExtrapolation(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem, double far)
-      : run_(run),
+  MotionExtrapolation(const BlockSystem& system, RunState& state, const StepProblem& problem, double far)
+      : system_(system),
+        state_(state),
         problem_(problem),
         far_(far),
-        goes_(run.blocks().size(), false),
+        goes_(system.blocks().size(), false),
         displacements_(goes_.size(), 0.0) {
-    const std::vector<bool> held = run.system.held_without_contacts();
+    const std::vector<bool> held = system.held_without_contacts();
     for (std::size_t k = 0; k < goes_.size(); ++k) {
-      if (!run.system.moving()[k]) continue;
+      if (!system.moving()[k]) continue;
       const BodyStep& body = problem.bodies[k];
       displacements_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
-      goes_[k] = !held[k] && residual_is_constant(scheme, k);
+      goes_[k] = !held[k] && residual_is_constant(k);
     }
     // A slack bolt may become taut on the way.
     for (const Island& island : problem.islands)
@@ -58,12 +59,12 @@ class MotionExtrapolation {
 
   /// Excludes blocks whose features would pass each other on the extrapolated path without a known contact.
   /// @return true if there are any
-  [[nodiscard]] bool exclude_passing(const std::vector<FoundContacts>& found) {
-    std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
+  [[nodiscard]] bool exclude_passing(StepContacts& contacts) {
+    std::vector<BlockState> after = states_after(system_, state_, problem_);
     for (std::size_t k = 0; k < goes_.size(); ++k)
       if (goes_[k]) after[k].position += path_factor() * problem_.bodies[k].motion();
     bool any = false;
-    for (const PassingBlocks& passing : run_.contacts.check_motion(run_.system, run_.state, after, found)) {
+    for (const PassingBlocks& passing : contacts.check_motion(system_, state_, after, problem_.found)) {
       any = any || goes(passing.blocks[0]) || goes(passing.blocks[1]);
       exclude(passing.blocks);
     }
@@ -86,13 +87,14 @@ class MotionExtrapolation {
   }
 
   /// True if the residual changes so little in the iteration that it would not vanish on the way to `far`.
-  [[nodiscard]] bool residual_is_constant(const TimeScheme& scheme, std::size_t k) const {
-    const StaticProgress& progress = run_.state.statics.progress;
+  [[nodiscard]] bool residual_is_constant(std::size_t k) const {
+    const StaticProgress& progress = state_.statics.progress;
     const BodyStep& body = problem_.bodies[k];
     if (progress.residuals.empty() || body.prescribed.size() > 0) return false;
-    const Eigen::MatrixX3d residual = residual_of(scheme, body);
+    const Eigen::MatrixX3d residual = residual_of(problem_.scheme, body);
     const double norm = residual.norm();
-    if (!(norm > run_.settings().statics.tolerance * body.largest_force + body.roundoff_force)) return false;
+    if (!(norm > system_.settings().statics.tolerance * body.largest_force + body.roundoff_force))
+      return false;
     return (residual - progress.residuals[k]).norm() * far_ <= displacements_[k] * norm;
   }
 
@@ -114,7 +116,8 @@ class MotionExtrapolation {
   [[nodiscard]] bool meet(const ContactPair& pair, double share) const {
     double way = std::numeric_limits<double>::infinity();
     for (const int block : {pair.a(), pair.b()})
-      if (goes(block)) way = std::min(way, displacements_[at(block)] * block_size(run_.blocks()[at(block)]));
+      if (goes(block))
+        way = std::min(way, displacements_[at(block)] * block_size(system_.blocks()[at(block)]));
     const std::vector<double> gaps =
         pair.gaps(problem_.bodies[at(pair.a())].change, problem_.bodies[at(pair.b())].change);
     const Eigen::Matrix3Xd moved = pair.motion(change(pair.a()), change(pair.b()));
@@ -125,7 +128,8 @@ class MotionExtrapolation {
     return false;
   }
 
-  const RunContext& run_;
+  const BlockSystem& system_;
+  RunState& state_;  ///< its log counts the work
   const StepProblem& problem_;
   double far_;
   std::vector<bool> goes_;
@@ -134,28 +138,29 @@ class MotionExtrapolation {
 
 }  // namespace
 
-CertainMotion certain_motion(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
-                             const std::vector<FoundContacts>& found, double far) {
-  MotionExtrapolation path(run, scheme, problem, far);
+FollowedMotion follow_motion(const BlockSystem& system, RunState& state, StepContacts& contacts,
+                             const StepProblem& problem, double far) {
+  MotionExtrapolation path(system, state, problem, far);
   do {
     path.exclude_stopped();
-  } while (path.any() && path.exclude_passing(found));
-  return path.result();
+  } while (path.any() && path.exclude_passing(contacts));
+  // The contact finder keeps the motion that it has checked last.
+  const std::vector<BlockState> after = states_after(system, state, problem);
+  return {path.result(), contacts.check_motion(system, state, after, problem.found)};
 }
 
-void note_certain_motion(const RunContext& run, const CertainMotion& motion) {
-  StaticState& statics = run.state.statics;
+void note_certain_motion(StaticState& statics, const CertainMotion& motion) {
   if (motion.displacements.empty()) return;
   statics.moving = true;
   for (std::size_t k = 0; k < motion.displacements.size(); ++k)
     statics.progress.displacements[k] = std::max(statics.progress.displacements[k], motion.displacements[k]);
 }
 
-void note_residuals(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
-  std::vector<Eigen::MatrixX3d>& residuals = run.state.statics.progress.residuals;
-  residuals.resize(run.blocks().size());
+void note_residuals(const BlockSystem& system, const StepProblem& problem, StaticState& statics) {
+  std::vector<Eigen::MatrixX3d>& residuals = statics.progress.residuals;
+  residuals.resize(system.blocks().size());
   for (std::size_t k = 0; k < residuals.size(); ++k)
-    if (run.system.moving()[k]) residuals[k] = residual_of(scheme, problem.bodies[k]);
+    if (system.moving()[k]) residuals[k] = residual_of(problem.scheme, problem.bodies[k]);
 }
 
 }  // namespace ashlar

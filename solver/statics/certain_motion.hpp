@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/contact/contact_finder.hpp"
-#include "solver/step/run_context.hpp"
+#include "solver/step/step_contacts.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
@@ -15,16 +15,21 @@ struct CertainMotion {
   std::vector<double> displacements;  ///< by block, in block sizes; empty: no motion is certain yet
 };
 
+/// Motion of an iteration, followed to its end and beyond.
+struct FollowedMotion {
+  CertainMotion certain;
+  std::vector<PassingBlocks> passing;  ///< StepContacts::check_motion of the iteration
+};
+
 /// Extrapolates an iteration: of the blocks with constant residual, those without obstacle until one of them has gone
-/// `far`. To be called before ContactFinder::check_motion of the iteration.
+/// `far` are certain to move. Checks the motion of the iteration itself, which is the last motion checked.
 /// @param problem as solved, not accepted. @param far in block sizes, > 0
-[[nodiscard]] CertainMotion certain_motion(const RunContext& run, const TimeScheme& scheme,
-                                           const StepProblem& problem,
-                                           const std::vector<FoundContacts>& found, double far);
+[[nodiscard]] FollowedMotion follow_motion(const BlockSystem& system, RunState& state, StepContacts& contacts,
+                                           const StepProblem& problem, double far);
 
 /// Marks the analysis as moving if motion is certain, with displacements at the end of the path.
-void note_certain_motion(const RunContext& run, const CertainMotion& motion);
-/// Stores the residuals of blocks for the next iteration. To be called before the problem is accepted.
-void note_residuals(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
+void note_certain_motion(StaticState& statics, const CertainMotion& motion);
+/// Stores the residuals of blocks in a problem that is not accepted yet, for the next iteration.
+void note_residuals(const BlockSystem& system, const StepProblem& problem, StaticState& statics);
 
 }  // namespace ashlar

@@ -2,11 +2,11 @@
 // the rigid model of the placement.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <vector>
 
+#include "solver/block_pair.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/support_movement.hpp"
 #include "solver/statics/yielding_support.hpp"
@@ -15,10 +15,10 @@ namespace ashlar {
 
 /// Placement of blocks, as a value.
 struct FollowedPlace {
-  double moved = 0.0;                         ///< q of the support, m
-  std::vector<BlockState> states;             ///< by block
-  std::vector<Eigen::Matrix3d> turn;          ///< of each block relative to its initial placement
-  std::map<std::array<int, 2>, double> slip;  ///< m, accumulated slip of joints under pressure
+  double moved = 0.0;                 ///< q of the support, m
+  std::vector<BlockState> states;     ///< by block
+  std::vector<Eigen::Matrix3d> turn;  ///< of each block relative to its initial placement
+  std::map<PairKey, double> slip;     ///< m, accumulated slip of joints under pressure
 };
 
 class FollowedBlocks {

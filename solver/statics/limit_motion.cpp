@@ -23,7 +23,7 @@ struct Joint {
   double normal = 0.0, slid = 0.0, opened = 0.0;
   Vector3 direction = Vector3::Zero();
 };
-using Joints = std::map<std::array<int, 2>, Joint>;
+using Joints = std::map<PairKey, Joint>;
 
 class Setting {
  public:
@@ -74,7 +74,7 @@ class Setting {
       for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
         const RigidPoint& point = model_.points[k];
         if (point.bar) continue;
-        const auto [first, second] = std::minmax(point.blocks[0], point.blocks[1]);
+        const auto [first, second] = key_of(point.blocks);
         Joint& joint = seen[{first, second}];
         const Eigen::Vector3d y = program_.relative(n, k, trial_.acceleration);
         joint.normal += std::max(trial_.force[k][0], 0.0);

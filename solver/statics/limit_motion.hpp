@@ -1,10 +1,10 @@
 // Onset of motion beyond a limit: moving blocks, their accelerations and the behaviour of their joints.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
+#include "solver/block_pair.hpp"
 #include "solver/statics/limit_trial.hpp"
 #include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/rigid_model.hpp"
@@ -14,7 +14,7 @@ namespace ashlar {
 /// Behaviour of a joint between two blocks in a motion.
 enum class JointMotion { sticks, slides, opens };
 struct MovingJoint {
-  std::array<int, 2> blocks;
+  PairKey blocks;
   JointMotion motion;
 };
 

@@ -81,8 +81,8 @@ class Bars {
   }
 
   /// A point without force between two bodies.
-  [[nodiscard]] RigidPoint point_at(const Vector3& place, std::array<int, 2> blocks,
-                                    std::array<int, 2> bodies, int piece, BarPart part) const {
+  [[nodiscard]] RigidPoint point_at(const Vector3& place, BlockPair blocks, std::array<int, 2> bodies,
+                                    int piece, BarPart part) const {
     RigidPoint point;
     point.blocks = blocks;
     point.bodies = bodies;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mechanics/contact/contact_kinematics.hpp"
+#include "solver/block_pair.hpp"
 #include "solver/state/run_state.hpp"
 #include "solver/statics/cone_program.hpp"
 #include "solver/step/run_context.hpp"
@@ -36,7 +37,7 @@ struct BarPoint {
 
 /// A place of contact between two bodies, or of a force of a bar.
 struct RigidPoint {
-  std::array<int, 2> blocks;  ///< the first one's force is that of its ConePoint
+  BlockPair blocks;  ///< the first one's force is that of its ConePoint
   std::array<int, 2> bodies = {
       -1, -1};            ///< of both; -1: fixed. Bars: of the bar instead of its block, where it slips
   Vector3 place;          ///< m

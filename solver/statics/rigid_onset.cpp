@@ -41,18 +41,24 @@ struct Onset {
   double farthest = 0.0;                                      // mean motion since the start, m
 };
 
-Onset prepare(const RunContext& run, const Island& island, const StepProblem& problem,
-              std::vector<BlockState>& states, std::vector<BodyStep>& bodies) {
+/// Blocks that are released from rest.
+struct ReleasedBlocks {
+  std::vector<BlockState> states;  ///< by block
+  std::vector<BodyStep> bodies;    ///< likewise
+};
+
+Onset prepare(const BlockSystem& system, const RunState& state, const Island& island,
+              const StepProblem& problem, ReleasedBlocks& released) {
   Onset onset;
   for (const int k : island.bodies) {
-    onset.farthest = std::max(onset.farthest, displacement_since_onset(run, k));
-    onset.smallest = std::min(onset.smallest, block_size(run.blocks()[at(k)]));
+    onset.farthest = std::max(onset.farthest, displacement_since_onset(system, state, k));
+    onset.smallest = std::min(onset.smallest, block_size(system.blocks()[at(k)]));
     onset.stiffer = std::max(onset.stiffer, stiffening(problem.bodies[at(k)]));
   }
   for (const int k : island.bodies) {
-    states[at(k)].position = run.blocks()[at(k)].unstrained(run.state.states[at(k)].position);
-    BodyStep& body = bodies[at(k)];
-    body.state = &states[at(k)];
+    released.states[at(k)].position = system.blocks()[at(k)].unstrained(state.states[at(k)].position);
+    BodyStep& body = released.bodies[at(k)];
+    body.state = &released.states[at(k)];
     body.prescribed.resize(0, 3);
     // The weight applies to external and elastic forces.
     body.external_force /= onset.stiffer;
@@ -61,33 +67,42 @@ Onset prepare(const RunContext& run, const Island& island, const StepProblem& pr
   return onset;
 }
 
-/// Replaces accelerations influenced by compliance by those of rigid blocks.
-/// @param bodies as solved, in a step of this inertia. @return true if the rigid blocks move
-bool take_over(const RunContext& run, const Island& island, const std::vector<BodyStep>& bodies,
-               double inertia, std::vector<Eigen::MatrixX3d>& accelerations) {
-  std::vector<Eigen::MatrixX3d> rigid_ones;
+/// Accelerations of an island's blocks. @param bodies as solved, in a step of this inertia
+std::vector<Eigen::MatrixX3d> accelerations_of(const Island& island, const std::vector<BodyStep>& bodies,
+                                               double inertia) {
+  std::vector<Eigen::MatrixX3d> accelerations;
+  for (const int k : island.bodies)
+    accelerations.emplace_back(inertia * bodies[at(k)].model->space().expand(bodies[at(k)].change));
+  return accelerations;
+}
+
+/// Replaces accelerations influenced by compliance by those of rigid blocks. Marks blocks of an island that rigid
+/// blocks would leave at rest.
+/// @param rigid_ones by block of the island. @return true if the rigid blocks move
+bool take_over(const BlockSystem& system, const Island& island, std::vector<Eigen::MatrixX3d> rigid_ones,
+               StaticOnset& onset, std::vector<Eigen::MatrixX3d>& accelerations) {
   double along = 0.0;
   double own = 0.0;
   double given = 0.0;
   double largest = 0.0;
-  for (const int k : island.bodies) {
-    const BlockModel& block = run.blocks()[at(k)];
+  for (std::size_t n = 0; n < island.bodies.size(); ++n) {
+    const int k = island.bodies[n];
+    const BlockModel& block = system.blocks()[at(k)];
     const double weight = std::pow(block.material().density, 2);
-    rigid_ones.emplace_back(inertia * block.space().expand(bodies[at(k)].change));
-    along += weight * rigid_ones.back().cwiseProduct(accelerations[at(k)]).sum();
-    own += weight * rigid_ones.back().squaredNorm();
+    along += weight * rigid_ones[n].cwiseProduct(accelerations[at(k)]).sum();
+    own += weight * rigid_ones[n].squaredNorm();
     given += weight * accelerations[at(k)].squaredNorm();
-    largest = std::max(largest, mean_motion(block, rigid_ones.back()));
+    largest = std::max(largest, mean_motion(block, rigid_ones[n]));
   }
   if (own < least_share * least_share * given) {
-    for (const int k : island.bodies) run.state.statics.onset.is_compliant[at(k)] = 1;
+    for (const int k : island.bodies) onset.is_compliant[at(k)] = 1;
     return false;
   }
   // Rigid blocks would only undo penetration and gaps of the deformable ones.
   if (along <= 0.0) return false;
   for (std::size_t n = 0; n < island.bodies.size(); ++n) {
     const int k = island.bodies[n];
-    if (mean_motion(run.blocks()[at(k)], rigid_ones[n]) < least_share * largest) rigid_ones[n].setZero();
+    if (mean_motion(system.blocks()[at(k)], rigid_ones[n]) < least_share * largest) rigid_ones[n].setZero();
     accelerations[at(k)] = std::move(rigid_ones[n]);
   }
   return true;
@@ -95,15 +110,14 @@ bool take_over(const RunContext& run, const Island& island, const std::vector<Bo
 
 }  // namespace
 
-bool starts_rigidly(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
-                    std::vector<Eigen::MatrixX3d>& accelerations) {
-  const Stopwatch watch(run.state.log.seconds.solve);
-  SimulationSettings settings = run.settings();
+bool starts_rigidly(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
+                    const StepProblem& problem, std::vector<Eigen::MatrixX3d>& accelerations) {
+  const Stopwatch watch(state.log.seconds.solve);
+  SimulationSettings settings = system.settings();
   settings.augmented = true;
-  settings.statics.residual_tolerance = run.settings().multipliers.apart_residual;
+  settings.statics.residual_tolerance = system.settings().multipliers.apart_residual;
   std::vector<ContactPair> pairs = problem.pairs;
-  std::vector<BodyStep> bodies = problem.bodies;
-  std::vector<BlockState> states = run.state.states;
+  ReleasedBlocks released{state.states, problem.bodies};
   bool all = true;
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const Island& island = problem.islands[i];
@@ -111,25 +125,26 @@ bool starts_rigidly(const RunContext& run, const TimeScheme& scheme, const StepP
     const double motion = largest_motion(island, problem.bodies);
     if (island.pairs.empty() || motion == 0.0) continue;
     const bool is_compliant = std::any_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
-      return run.state.statics.onset.is_compliant[at(block)] != 0;
+      return state.statics.onset.is_compliant[at(block)] != 0;
     });
     if (!is_rigid(island, pairs) || is_compliant) {
       all = false;
       continue;
     }
-    const Onset onset = prepare(run, island, problem, states, bodies);
+    const Onset onset = prepare(system, state, island, problem, released);
     for (std::size_t n = 0; n < island.pairs.size(); ++n) {
       ContactPair& pair = pairs[at(island.pairs[n])];
       pair = pair.at_rigid_onset(result.responses[n], result.laws[n], opened_by * onset.farthest);
     }
-    TimeScheme let_go = scheme;
-    let_go.inertia = scheme.inertia * motion / way;
+    TimeScheme let_go = problem.scheme;
+    let_go.inertia = problem.scheme.inertia * motion / way;
     let_go.force_weight = onset.stiffer;
     settings.multipliers.penetration_tolerance = depth_share * way * onset.smallest;
-    const IslandResult off = solve_island(island, bodies, pairs, let_go, settings, run.factors.islands);
-    run.state.log.counts.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
+    const IslandResult off = solve_island(island, released.bodies, pairs, let_go, settings, solvers);
+    state.log.counts.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
     const bool rigid = off.status == IslandStatus::converged &&
-                       take_over(run, island, bodies, let_go.inertia, accelerations);
+                       take_over(system, island, accelerations_of(island, released.bodies, let_go.inertia),
+                                 state.statics.onset, accelerations);
     all = all && rigid;
   }
   return all;

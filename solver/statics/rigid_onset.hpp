@@ -8,15 +8,14 @@
 
 #include <vector>
 
-#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
 
-/// Removes the effect of compliance from the accelerations of an iteration of a static analysis. To be called before
-/// the problem is accepted.
-/// @param accelerations (p, 3) of each moving block. @return true if all are those of rigid blocks now
-[[nodiscard]] bool starts_rigidly(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
-                                  std::vector<Eigen::MatrixX3d>& accelerations);
+/// Removes the effect of compliance from the accelerations of an iteration of a static analysis.
+/// @param problem solved, not accepted. @param accelerations (p, 3) of each moving block
+/// @return true if all are those of rigid blocks now
+[[nodiscard]] bool starts_rigidly(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
+                                  const StepProblem& problem, std::vector<Eigen::MatrixX3d>& accelerations);
 
 }  // namespace ashlar

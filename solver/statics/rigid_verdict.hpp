@@ -7,13 +7,15 @@
 // have changed, it states for an analysis without a result if they are beyond what any forces balance, or at that limit.
 #pragma once
 
+#include "solver/state/block_system.hpp"
+#include "solver/state/run_state.hpp"
 #include "solver/statics/static_analysis.hpp"
-#include "solver/step/run_context.hpp"
 
 namespace ashlar {
 
 /// Records the motion found by limit analysis for moving_blocks().
 /// @param status equilibrium or not_converged. @return moving, or the same status
-[[nodiscard]] StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus status);
+[[nodiscard]] StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double end_time,
+                                         StaticStatus status);
 
 }  // namespace ashlar

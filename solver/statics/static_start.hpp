@@ -14,12 +14,12 @@
 
 namespace ashlar {
 
-/// To be called before the first step. @param goes_on called before each iteration: false ends the analysis
+/// Starts a run whose contacts have not been detected yet. @param goes_on called before each iteration: false ends the analysis
 /// @return status of the static analysis, balancing if it was ended; unless it is equilibrium all blocks are as
 /// placed
 [[nodiscard]] StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on);
 
 /// Energy of the springs of all ties in the present state, J: records have those of contacts only.
-[[nodiscard]] double energy_of_ties(const RunContext& run);
+[[nodiscard]] double energy_of_ties(const BlockSystem& system, RunState& state, const StepContacts& contacts);
 
 }  // namespace ashlar

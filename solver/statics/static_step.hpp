@@ -15,6 +15,7 @@ namespace ashlar {
 
 /// Sets of blocks in contact with each other that no fixed block, contact or support restrains, including single
 /// blocks whose supports allow any rigid motion.
-[[nodiscard]] std::vector<std::vector<int>> loose_blocks(const RunContext& run);
+[[nodiscard]] std::vector<std::vector<int>> loose_blocks(const BlockSystem& system, RunState& state,
+                                                         StepContacts& contacts);
 
 }  // namespace ashlar

@@ -26,9 +26,9 @@ struct Joints {
   bool fail = false;             ///< true if any joint fails
 };
 
-Joints joints_of(const RunContext& run, const StepProblem& problem) {
+/// @param tearing_gap of the settings, m
+Joints joints_of(const StepProblem& problem, double tearing_gap) {
   Joints joints;
-  const double tearing_gap = run.settings().tearing_gap();
   const auto change = [&](int block) { return problem.bodies[at(block)].change; };
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     for (std::size_t n = 0; n < problem.islands[i].pairs.size(); ++n) {
@@ -69,7 +69,7 @@ double largest_motion(const StepProblem& problem) {
   return most;
 }
 
-bool multipliers_repeat(const RunContext& run, const StepProblem& problem) {
+bool multipliers_repeat(const StaticSettings& settings, const StepProblem& problem) {
   double change = 0.0;
   double largest = 0.0;
   for (const IslandResult& result : problem.results) {
@@ -84,14 +84,13 @@ bool multipliers_repeat(const RunContext& run, const StepProblem& problem) {
       }
     }
   }
-  return change <= run.settings().statics.multiplier_tolerance * largest;
+  return change <= settings.multiplier_tolerance * largest;
 }
 
-bool has_set_off(const RunContext& run) {
-  return std::any_of(run.state.statics.progress.displacements.begin(),
-                     run.state.statics.progress.displacements.end(), [&](double displacement) {
-                       return displacement > taken_along_share * run.settings().statics.displacement_limit;
-                     });
+bool has_set_off(const StaticSettings& settings, const StaticState& statics) {
+  return std::any_of(
+      statics.progress.displacements.begin(), statics.progress.displacements.end(),
+      [&](double displacement) { return displacement > taken_along_share * settings.displacement_limit; });
 }
 
 bool has_converged(const StepProblem& problem) {
@@ -99,86 +98,88 @@ bool has_converged(const StepProblem& problem) {
                       [](const BodyStep& body) { return body.residual > 0.0; });
 }
 
-bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
+bool note_balance(const BlockSystem& system, RunState& state, const StepProblem& problem) {
   bool balanced = true;
-  const std::vector<bool> held = run.system.held_without_contacts();
-  for (std::size_t k = 0; k < run.blocks().size(); ++k) {
-    if (!run.system.moving()[k]) continue;
+  const std::vector<bool> held = system.held_without_contacts();
+  for (std::size_t k = 0; k < system.blocks().size(); ++k) {
+    if (!system.moving()[k]) continue;
     const BodyStep& body = problem.bodies[k];
-    const BlockModel& block = run.blocks()[k];
-    const double lacking = block.material().density * scheme.inertia * body.change.norm() + body.residual;
-    const Eigen::MatrixX3d position = run.state.states[k].position + body.motion();
-    if (lacking <= run.settings().statics.tolerance * body.largest_force + body.roundoff_force) {
-      run.state.statics.progress.displacements[k] = 0.0;
-      run.state.statics.progress.positions[k] = position;
-      run.state.statics.progress.forces[k] = lacking;
+    const BlockModel& block = system.blocks()[k];
+    const double lacking =
+        block.material().density * problem.scheme.inertia * body.change.norm() + body.residual;
+    const Eigen::MatrixX3d position = state.states[k].position + body.motion();
+    if (lacking <= system.settings().statics.tolerance * body.largest_force + body.roundoff_force) {
+      state.statics.progress.displacements[k] = 0.0;
+      state.statics.progress.positions[k] = position;
+      state.statics.progress.forces[k] = lacking;
       continue;
     }
     balanced = false;
-    if (lacking < 0.5 * run.state.statics.progress.forces[k]) {
-      run.state.statics.progress.positions[k] = position;
-      run.state.statics.progress.forces[k] = lacking;
+    if (lacking < 0.5 * state.statics.progress.forces[k]) {
+      state.statics.progress.positions[k] = position;
+      state.statics.progress.forces[k] = lacking;
     }
-    run.state.statics.progress.displacements[k] =
-        mean_motion(block, position - run.state.statics.progress.positions[k]) / block_size(block);
-    if (run.state.statics.progress.displacements[k] > run.settings().statics.displacement_limit && !held[k])
-      run.state.statics.moving = true;
+    state.statics.progress.displacements[k] =
+        mean_motion(block, position - state.statics.progress.positions[k]) / block_size(block);
+    if (state.statics.progress.displacements[k] > system.settings().statics.displacement_limit && !held[k])
+      state.statics.moving = true;
   }
   return balanced;
 }
 
-void forget_accelerations(const RunContext& run) {
-  run.state.statics.onset.least_residual = std::numeric_limits<double>::infinity();
-  run.state.statics.onset.unbalanced.clear();
-  run.state.statics.onset.rigid = false;
-  run.state.statics.onset.is_compliant.assign(run.blocks().size(), 0);
-  run.state.statics.onset.starts.clear();
-  for (const BlockState& state : run.state.states) run.state.statics.onset.starts.push_back(state.position);
+void forget_accelerations(RunState& state) {
+  state.statics.onset.least_residual = std::numeric_limits<double>::infinity();
+  state.statics.onset.unbalanced.clear();
+  state.statics.onset.rigid = false;
+  state.statics.onset.is_compliant.assign(state.states.size(), 0);
+  state.statics.onset.starts.clear();
+  for (const BlockState& block : state.states) state.statics.onset.starts.push_back(block.position);
 }
 
-double displacement_since_onset(const RunContext& run, int block) {
-  return mean_motion(run.blocks()[at(block)],
-                     run.state.states[at(block)].position - run.state.statics.onset.starts[at(block)]);
+double displacement_since_onset(const BlockSystem& system, const RunState& state, int block) {
+  return mean_motion(system.blocks()[at(block)],
+                     state.states[at(block)].position - state.statics.onset.starts[at(block)]);
 }
 
-void note_accelerations(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
-  auto [sliding, fail] = joints_of(run, problem);
-  if (fail) forget_accelerations(run);
-  const bool settled = has_converged(problem) && sliding == run.state.statics.onset.sliding;
-  run.state.statics.onset.sliding = std::move(sliding);
+void note_accelerations(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
+                        const StepProblem& problem) {
+  auto [sliding, fail] = joints_of(problem, system.settings().tearing_gap());
+  if (fail) forget_accelerations(state);
+  const bool settled = has_converged(problem) && sliding == state.statics.onset.sliding;
+  state.statics.onset.sliding = std::move(sliding);
   // Until the same joints slide twice, the last iteration is the best: in the first ones inertia carries most of the
   // weight.
-  if (!settled && std::isfinite(run.state.statics.onset.least_residual)) return;
+  if (!settled && std::isfinite(state.statics.onset.least_residual)) return;
   bool near_start = true;
-  for (std::size_t k = 0; k < run.blocks().size(); ++k)
+  for (std::size_t k = 0; k < system.blocks().size(); ++k)
     near_start =
-        near_start && !(run.system.moving()[k] &&
-                        displacement_since_onset(run, static_cast<int>(k)) > run.settings().contact_distance);
-  if (!near_start && run.state.statics.onset.rigid) return;
-  std::vector<Eigen::MatrixX3d> accelerations(run.blocks().size());
-  for (std::size_t k = 0; k < run.blocks().size(); ++k)
-    if (run.system.moving()[k])
-      accelerations[k] = scheme.inertia * run.blocks()[k].space().expand(problem.bodies[k].change);
+        near_start && !(system.moving()[k] && displacement_since_onset(system, state, static_cast<int>(k)) >
+                                                  system.settings().contact_distance);
+  if (!near_start && state.statics.onset.rigid) return;
+  std::vector<Eigen::MatrixX3d> accelerations(system.blocks().size());
+  for (std::size_t k = 0; k < system.blocks().size(); ++k)
+    if (system.moving()[k])
+      accelerations[k] = problem.scheme.inertia * system.blocks()[k].space().expand(problem.bodies[k].change);
   if (settled) {
-    const bool rigid = starts_rigidly(run, scheme, problem, accelerations);
+    const bool rigid = starts_rigidly(system, state, solvers, problem, accelerations);
     double lacking = 0.0;
-    for (std::size_t k = 0; k < run.blocks().size(); ++k)
-      lacking += std::pow(run.blocks()[k].material().density * accelerations[k].norm(), 2);
-    if (!(lacking < run.state.statics.onset.least_residual)) return;
-    run.state.statics.onset.least_residual = lacking;
-    run.state.statics.onset.rigid = rigid;
+    for (std::size_t k = 0; k < system.blocks().size(); ++k)
+      lacking += std::pow(system.blocks()[k].material().density * accelerations[k].norm(), 2);
+    if (!(lacking < state.statics.onset.least_residual)) return;
+    state.statics.onset.least_residual = lacking;
+    state.statics.onset.rigid = rigid;
   }
-  run.state.statics.onset.unbalanced = std::move(accelerations);
+  state.statics.onset.unbalanced = std::move(accelerations);
 }
 
-StaticStatus give_up(const RunContext& run) {
+StaticStatus give_up(const BlockSystem& system, StaticState& statics) {
   // A small residual may still produce a large, slow displacement.
-  const std::vector<bool> held = run.system.held_without_contacts();
-  for (std::size_t k = 0; k < run.blocks().size(); ++k)
-    run.state.statics.moving =
-        run.state.statics.moving || (!held[k] && run.state.statics.progress.displacements[k] >
-                                                     slow_share * run.settings().statics.displacement_limit);
-  return run.state.statics.moving ? StaticStatus::moving : StaticStatus::not_converged;
+  const std::vector<bool> held = system.held_without_contacts();
+  for (std::size_t k = 0; k < system.blocks().size(); ++k)
+    statics.moving =
+        statics.moving || (!held[k] && statics.progress.displacements[k] >
+                                           slow_share * system.settings().statics.displacement_limit);
+  return statics.moving ? StaticStatus::moving : StaticStatus::not_converged;
 }
 
 std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState& state) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "solver/statics/static_analysis.hpp"
-#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
@@ -14,22 +13,23 @@ namespace ashlar {
 [[nodiscard]] double largest_motion(const Island& island, const std::vector<BodyStep>& bodies);
 [[nodiscard]] double largest_motion(const StepProblem& problem);
 /// Displacement of a block since its onset of motion, m.
-[[nodiscard]] double displacement_since_onset(const RunContext& run, int block);
+[[nodiscard]] double displacement_since_onset(const BlockSystem& system, const RunState& state, int block);
 
 /// True if the open-close iteration left no residual in any body (settings.statics.unconverged_share).
 [[nodiscard]] bool has_converged(const StepProblem& problem);
 /// Records the residual of each block. @return true if all are within the tolerance
-[[nodiscard]] bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
-/// Records the accelerations to be reported for moving blocks. To be called before the problem is accepted.
-void note_accelerations(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
+[[nodiscard]] bool note_balance(const BlockSystem& system, RunState& state, const StepProblem& problem);
+/// Records the accelerations to be reported for moving blocks. @param problem solved, not accepted
+void note_accelerations(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
+                        const StepProblem& problem);
 /// Discards recorded accelerations, after an iteration in equilibrium.
-void forget_accelerations(const RunContext& run);
+void forget_accelerations(RunState& state);
 /// True if multipliers have converged: they equal the forces at the end of the iteration.
-[[nodiscard]] bool multipliers_repeat(const RunContext& run, const StepProblem& problem);
+[[nodiscard]] bool multipliers_repeat(const StaticSettings& settings, const StepProblem& problem);
 /// True if any block has gone far enough to be listed as moving.
-[[nodiscard]] bool has_set_off(const RunContext& run);
+[[nodiscard]] bool has_set_off(const StaticSettings& settings, const StaticState& statics);
 /// Status of a static analysis that is ended without equilibrium: moving or not converged.
-[[nodiscard]] StaticStatus give_up(const RunContext& run);
+[[nodiscard]] StaticStatus give_up(const BlockSystem& system, StaticState& statics);
 /// Blocks found to be moving, including blocks carried along.
 [[nodiscard]] std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState& state);
 

@@ -236,31 +236,27 @@ class Path {
     constexpr double bears = 1e-3;  // of the largest force
     double largest = 0.0;
     for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
-    std::map<std::array<int, 2>, double> slid;
+    std::map<PairKey, double> slid;
     for (std::size_t n = 0; n < program.pairs().size(); ++n) {
       for (std::size_t k = program.pairs()[n].begin; k < program.pairs()[n].end; ++k) {
         if (!(force[k][0] > bears * largest)) continue;
-        double& most = slid[ordered(model.points[k].blocks)];
+        double& most = slid[key_of(model.points[k].blocks)];
         most = std::max(most, program.relative(n, k, way).tail<2>().norm());
       }
     }
     for (const auto& [blocks, slip] : slid) placement.slip[blocks] += slip;
   }
 
-  static std::array<int, 2> ordered(const std::array<int, 2>& blocks) {
-    return {std::min(blocks[0], blocks[1]), std::max(blocks[0], blocks[1])};
-  }
-
   void note_joints(const RigidModel& first) {
     constexpr double turned = 1e-4;  // rad
-    std::map<std::array<int, 2>, JointResultant> bearing;
+    std::map<PairKey, JointResultant> bearing;
     if (force_.size() == model_->points.size()) {
       for (const JointResultant& joint : joint_resultants(*model_, forces_of(*model_, force_)))
-        bearing.emplace(ordered(joint.blocks), joint);
+        bearing.emplace(key_of(joint.blocks), joint);
     }
-    std::map<std::array<int, 2>, Vector3> places;
+    std::map<PairKey, Vector3> places;
     for (const RigidModel* model : {&first, static_cast<const RigidModel*>(&*model_)})
-      for (const RigidPoint& point : model->points) places[ordered(point.blocks)] = point.place;
+      for (const RigidPoint& point : model->points) places[key_of(point.blocks)] = point.place;
     for (const auto& [blocks, place] : places) {
       const Eigen::Matrix3d relative =
           placement_.turn[at(blocks[0])].transpose() * placement_.turn[at(blocks[1])];

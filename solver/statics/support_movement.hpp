@@ -23,11 +23,11 @@
 // Joints have friction only: cohesion and tensile strength, which a moved joint has lost, are ignored.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "solver/block_pair.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/statics/rigid_model.hpp"
@@ -69,7 +69,7 @@ struct MovedPlace {
 
 /// A joint that has changed.
 struct MovedJoint {
-  std::array<int, 2> blocks;
+  PairKey blocks;
   Vector3 place;            ///< m, centre of its normal forces at the end
   double rotation = 0.0;    ///< rad, of its blocks relative to each other
   double slip = 0.0;        ///< m, accumulated slip under pressure

@@ -59,7 +59,7 @@ std::vector<JointResultant> joint_resultants(const RigidModel& model, const std:
     Vector3 place = Vector3::Zero();
     Vector3 force = Vector3::Zero();
   };
-  std::map<std::array<int, 2>, Sum> sums;
+  std::map<BlockPair, Sum> sums;
   double largest = 0.0;
   for (std::size_t k = 0; k < model.points.size(); ++k) {
     const RigidPoint& point = model.points[k];

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/block_pair.hpp"
 #include "solver/statics/rigid_model.hpp"
 
 namespace ashlar {
@@ -38,7 +39,7 @@ struct ThrustRange {
 
 /// Resultant of a joint and its place.
 struct JointResultant {
-  std::array<int, 2> blocks;
+  BlockPair blocks;
   Vector3 place;  ///< m, centre of the normal forces
   Vector3 force;  ///< N, on the first block
 };

@@ -8,10 +8,8 @@ namespace ashlar {
 namespace {
 
 /// Breaks bars at their rupture strain. @return energy released, J; empty: none broke
-std::optional<double> rupture(const RunContext& run, int index, const Eigen::VectorXd& deformation,
+std::optional<double> rupture(const Bolt& bolt, BoltState& state, const Eigen::VectorXd& deformation,
                               const BoltResponse& response) {
-  const Bolt& bolt = run.system.bolts()[at(index)];
-  BoltState& state = run.state.bolts[at(index)];
   if (!bolt.chain.rupture(deformation, response, state.reached)) return std::nullopt;
   const double before = state.stored;
   state.memory = state.reached;
@@ -22,33 +20,35 @@ std::optional<double> rupture(const RunContext& run, int index, const Eigen::Vec
 
 }  // namespace
 
-BoltEnergies take_over_bolts(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
+BoltEnergies take_over_bolts(const BlockSystem& system, RunState& state, const StepProblem& problem) {
   BoltEnergies sum;
-  LedgerKeeper& ledger = run.state.ledger;
+  const bool is_static = problem.scheme.is_static();
+  LedgerKeeper& ledger = state.ledger;
   double found = 0.0;
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const IslandResult& result = problem.results[i];
     for (std::size_t n = 0; n < result.bolts.size(); ++n) {
       const BoltResult& one = result.bolts[n];
       const StepBolt& bolt = *problem.islands[i].bolts[n];
-      BoltState& state = run.state.bolts[at(bolt.index())];
-      found += bolt.start_energy() - state.stored;
-      const double dissipated_before = scheme.is_static() ? state.dissipated : 0.0;
-      state.reached = bolt.bolt().chain.memory_after(one.response.end, bolt.memory());
-      take_forces(one.response.end, state);
+      BoltState& kept = state.bolts[at(bolt.index())];
+      found += bolt.start_energy() - kept.stored;
+      const double dissipated_before = is_static ? kept.dissipated : 0.0;
+      kept.reached = bolt.bolt().chain.memory_after(one.response.end, bolt.memory());
+      take_forces(one.response.end, kept);
       sum.work += one.work;
-      sum.dissipated += state.dissipated - dissipated_before;
-      sum.gained += state.stored - bolt.start_energy();
+      sum.dissipated += kept.dissipated - dissipated_before;
+      sum.gained += kept.stored - bolt.start_energy();
       ledger.loads_did(-one.prescribed_work);
-      if (!scheme.is_static()) {
-        state.memory = state.reached;
-        state.dissipated = 0.0;
-        if (const auto released = rupture(run, bolt.index(), one.response.deformation, one.response.end)) {
+      if (!is_static) {
+        kept.memory = kept.reached;
+        kept.dissipated = 0.0;
+        if (const auto released =
+                rupture(system.bolts()[at(bolt.index())], kept, one.response.deformation, one.response.end)) {
           sum.gained -= *released;
           sum.dissipated += *released;
         }
       }
-      sum.held += state.stored;
+      sum.held += kept.stored;
     }
   }
   if (found != 0.0) ledger.found_anew(found);
@@ -62,19 +62,19 @@ void commit_bolts(RunState& state) {
   }
 }
 
-bool rupture_bolts(const RunContext& run) {
+bool rupture_bolts(const BlockSystem& system, RunState& state) {
   bool any = false;
-  for (std::size_t k = 0; k < run.state.bolts.size(); ++k) {
-    BoltState& state = run.state.bolts[k];
-    const Bolt& bolt = run.system.bolts()[k];
-    if (!state.installed() || bolt.chain.law().rupture_strain == BoltLaw::unlimited) continue;
-    const Eigen::VectorXd deformation = deformation_in(bolt, run.blocks(), run.state.states);
-    const BoltResponse response = bolt.chain.respond(deformation, state.memory, false);
-    const std::optional<double> released = rupture(run, static_cast<int>(k), deformation, response);
+  for (std::size_t k = 0; k < state.bolts.size(); ++k) {
+    BoltState& one = state.bolts[k];
+    const Bolt& bolt = system.bolts()[k];
+    if (!one.installed() || bolt.chain.law().rupture_strain == BoltLaw::unlimited) continue;
+    const Eigen::VectorXd deformation = deformation_in(bolt, system.blocks(), state.states);
+    const BoltResponse response = bolt.chain.respond(deformation, one.memory, false);
+    const std::optional<double> released = rupture(bolt, one, deformation, response);
     if (!released) continue;
     any = true;
-    run.state.ledger.sliding_took(*released);
-    run.state.ledger.springs_hold(run.state.ledger.ledger().contact - *released);
+    state.ledger.sliding_took(*released);
+    state.ledger.springs_hold(state.ledger.ledger().contact - *released);
   }
   return any;
 }

@@ -1,7 +1,6 @@
 // The bolts of an accepted step: forces, memories and energies that the run keeps.
 #pragma once
 
-#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
@@ -17,12 +16,12 @@ struct BoltEnergies {
 /// Stores forces and memories, and books work on moving supports and what the bolts store more or less at the start of
 /// the step than at the end of the last one. Memories of a static analysis stay those of the start of the load level:
 /// the path of its iterations is none of a bar (notes/static_friction.md).
-[[nodiscard]] BoltEnergies take_over_bolts(const RunContext& run, const TimeScheme& scheme,
+[[nodiscard]] BoltEnergies take_over_bolts(const BlockSystem& system, RunState& state,
                                            const StepProblem& problem);
 /// Lets evaluations start from the last state: at the start of a load level and of motion.
 void commit_bolts(RunState& state);
 /// Breaks bars that have reached their rupture strain in a static analysis. @return true if there are any
-bool rupture_bolts(const RunContext& run);
+bool rupture_bolts(const BlockSystem& system, RunState& state);
 
 /// Installs bolts of the run in the present state that have no memory yet. @return energy that they store, J
 double install_bolts(const BlockSystem& system, RunState& state);

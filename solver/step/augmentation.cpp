@@ -27,16 +27,15 @@ double compression_of(const PointLaw& law, const PointResponse& point, double ga
 
 }  // namespace
 
-bool Augmentation::stiffen() {
+bool Augmentation::stiffen(IslandProblem& problem) {
   constexpr double margin = 4.0;  // forces grow as springs are stiffened
   constexpr double most = 1e4;    // in one update
   bool stiffer = false;
-  for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-    for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
-      PointLaw& law = problem_.laws()[pair][k];
-      const double gap = problem_.pair(pair).points()[k].gap - problem_.pair(pair).dilation_before(k);
-      const double found =
-          compression_of(law, problem_.responses()[pair].points[k], gap, problem_.settings());
+  for (std::size_t pair = 0; pair < problem.pairs(); ++pair) {
+    for (std::size_t k = 0; k < problem.laws()[pair].size(); ++k) {
+      PointLaw& law = problem.laws()[pair][k];
+      const double gap = problem.pair(pair).points()[k].gap - problem.pair(pair).dilation_before(k);
+      const double found = compression_of(law, problem.responses()[pair].points[k], gap, problem.settings());
       if (found <= 1.0) continue;
       stiffer = true;
       const double factor = std::min(margin * found, most);
@@ -47,19 +46,19 @@ bool Augmentation::stiffen() {
   return stiffer;
 }
 
-bool Augmentation::lower_multipliers() {
-  if (problem_.scheme().is_static()) return false;
-  const MultiplierSettings& multipliers = problem_.settings().multipliers;
+bool Augmentation::lower_multipliers(IslandProblem& problem) {
+  if (problem.scheme().is_static()) return false;
+  const MultiplierSettings& multipliers = problem.settings().multipliers;
   const double accuracy = multipliers.accuracy * multipliers.penetration_tolerance;
   bool lowered = false;
   beyond_ *= 2.0;  // 1 the first time
-  for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-    std::vector<PointLaw>& laws = problem_.laws()[pair];
+  for (std::size_t pair = 0; pair < problem.pairs(); ++pair) {
+    std::vector<PointLaw>& laws = problem.laws()[pair];
     if (laws.empty() || !laws.front().augmented) continue;
-    const std::vector<PointResponse>& points = problem_.responses()[pair].points;
+    const std::vector<PointResponse>& points = problem.responses()[pair].points;
     double force = 0.0;
     for (const PointResponse& point : points) force += std::max(0.0, point.force[0]);
-    if (!(problem_.given(pair) - problem_.pair(pair).taken() > accuracy * force)) continue;
+    if (!(problem.given(pair) - problem.pair(pair).taken() > accuracy * force)) continue;
     for (std::size_t k = 0; k < laws.size(); ++k) {
       const Eigen::Vector2d shear = points[k].force.tail<2>();
       const double fall = std::max(0.0, laws[k].normal_multiplier - points[k].force[0]);

@@ -12,23 +12,19 @@ namespace ashlar {
 
 class Augmentation {
  public:
-  /// @param problem must outlive this
-  explicit Augmentation(IslandProblem& problem) : problem_(problem) {}
-
-  /// Stiffens springs as the balanced forces require, or lowers multipliers if no spring is too soft. @return true if
-  /// anything has changed
-  bool adjust() { return stiffen() || lower_multipliers(); }
+  /// Stiffens springs as the balanced forces require, or lowers multipliers if no spring is too soft.
+  /// @param problem the same in each call. @return true if anything has changed
+  bool adjust(IslandProblem& problem) { return stiffen(problem) || lower_multipliers(problem); }
 
  private:
   /// Stiffens springs beside multipliers as the change of force in the step requires. @return true if any were too
   /// soft
-  bool stiffen();
+  static bool stiffen(IslandProblem& problem);
   /// Applies to pairs that release more energy than their blocks have spent on them. Lowers the multipliers of points
   /// whose force falls in the step below the force at its end, so that the pair dissipates. A multiplier changes in
   /// proportion to the fall of its force, so that rounding errors have no effect. @return true if any was lowered
-  bool lower_multipliers();
+  bool lower_multipliers(IslandProblem& problem);
 
-  IslandProblem& problem_;
   double beyond_ = 0.5;  ///< multiple of the fall of force by which a multiplier is lowered below the force
                          ///< at the end
 };

@@ -1,7 +1,7 @@
 // Blocks whose model changes between steps: incremental blocks and blocks whose order changes.
 #pragma once
 
-#include "solver/step/run_context.hpp"
+#include "solver/step/step_caches.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
@@ -14,15 +14,16 @@ struct DroppedByOrder {
 };
 
 /// Computes the next steps of incremental blocks. @return false if one would no longer be a valid block
-[[nodiscard]] bool carry_blocks(const RunContext& run, StepProblem& problem);
+[[nodiscard]] bool carry_blocks(const BlockSystem& system, const RunState& state, StepProblem& problem);
 
 /// Starts the next step of an incremental block.
-void start_carried_step(const RunContext& run, int block, CarriedBlock next);
+void start_carried_step(BlockSystem& system, RunState& state, StepCaches& caches, int block,
+                        CarriedBlock next);
 
 /// Replaces the model of a block by one of the same solid and another order.
-void replace_model(const RunContext& run, int block, BlockModel model);
+void replace_model(BlockSystem& system, RunState& state, StepCaches& caches, int block, BlockModel model);
 
 /// Changes the order of a moving block of the total formulation, see Simulation::change_order.
-DroppedByOrder change_order(const RunContext& run, int block, int order);
+DroppedByOrder change_order(BlockSystem& system, RunState& state, StepCaches& caches, int block, int order);
 
 }  // namespace ashlar

@@ -22,30 +22,33 @@ namespace {
 class DynamicStep {
  public:
   DynamicStep(const RunContext& run, double step)
-      : run_(run), step_(step), found_(run.contacts.detect(run.system, run.state, step)) {}
+      : system_(run.system), state_(run.state), caches_(run.caches), fault_(run.fault), step_(step) {
+    problem_.found = caches_.contacts.detect(system_, state_, step);
+  }
 
   StepStatus run() {
-    const SimulationSettings& settings = run_.settings();
+    const SimulationSettings& settings = system_.settings();
     pair_up();
     rebound_from_touches();
     while (cuts_ <= settings.max_step_cuts && additions_ <= settings.max_step_cuts) {
       const TimeScheme scheme = time_scheme(settings, step_);
-      const IslandStatus status = solve(run_.system, run_.state, scheme, run_.factors, problem_);
+      const IslandStatus status = solve(system_, state_, scheme, caches_.factors, problem_);
       if (status != IslandStatus::converged) {
-        reject_unsettled(run_, step_, status, problem_);
+        const RejectionCause cause = cause_of_failure(system_, state_, problem_, status);
+        fault_ = cause.fault;
+        reject(state_, step_, cause.reason);
         unconverged_ = true;
         cut(0.5);
-      } else if (const auto share = share_until_impact(run_, step_, problem_);
+      } else if (const auto share = share_until_impact(system_, state_, step_, problem_);
                  share && cuts_ < settings.max_step_cuts) {
         cut(*share);
-      } else if (const auto broken = broken_block(run_, problem_)) {
-        reject(run_, step_, *broken);
-        cut(0.5);
+      } else if (const auto broken = broken_block(system_, state_, problem_)) {
+        reject_for(*broken);
       } else if (const auto passing = blocks_that_pass(); !passing.empty()) {
         meet(passing);
       } else if (can_end()) {
-        accept(run_, scheme, problem_);
-        double& next = run_.state.next_step;
+        accept(system_, state_, caches_, std::move(problem_));
+        double& next = state_.next_step;
         next = std::min(settings.time_step, unconverged_ ? step_ : 2.0 * next);
         return StepStatus::accepted;
       }
@@ -59,68 +62,73 @@ class DynamicStep {
     step_ *= share;
     ++cuts_;
   }
+  void reject_for(const StateFault& fault) {
+    fault_ = fault;
+    reject(state_, step_, fault.reason);
+    cut(0.5);
+  }
 
   /// Makes the contact pairs of the step. Separates blocks that are too deep beforehand.
   void pair_up() {
-    const int most = run_.settings().multipliers.moves_apart;
+    const int most = system_.settings().multipliers.moves_apart;
     problem_.results.clear();
-    problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
-    while (wake_touched(run_, problem_.pairs)) detect();
-    while (moves_ < most && too_deep(run_, problem_.pairs)) {
-      if (!unmoved_) unmoved_ = snapshot_of(run_);
-      if (!project_positions(run_, step_, problem_, found_, most)) break;
+    problem_.pairs = caches_.contacts.pairs(system_, state_, problem_.found, PairUse::motion);
+    while (wake_touched(system_, state_, problem_.pairs)) detect();
+    while (moves_ < most && too_deep(system_, state_, problem_.pairs)) {
+      if (!unmoved_) unmoved_ = snapshot_of(system_, state_, caches_);
+      if (!project_positions(system_, state_, caches_, step_, problem_)) break;
       ++moves_;
       do {
         detect();
-      } while (wake_touched(run_, problem_.pairs));
+      } while (wake_touched(system_, state_, problem_.pairs));
     }
   }
 
   /// Impacts at the start of the step. Blocks that are struck may strike others at once: no more often than there are
   /// pairs.
   void rebound_from_touches() {
-    for (std::size_t most = problem_.pairs.size(); most > 0 && rebound(run_, problem_.pairs); --most) {
+    for (std::size_t most = problem_.pairs.size(); most > 0 && rebound(system_, state_, problem_.pairs);
+         --most) {
       do {
         detect();
-      } while (wake_touched(run_, problem_.pairs));
+      } while (wake_touched(system_, state_, problem_.pairs));
     }
   }
 
   void detect() {
-    found_ = run_.contacts.detect(run_.system, run_.state, step_);
-    problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
+    problem_.found = caches_.contacts.detect(system_, state_, step_);
+    problem_.pairs = caches_.contacts.pairs(system_, state_, problem_.found, PairUse::motion);
   }
 
   std::vector<PassingBlocks> blocks_that_pass() {
-    const std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
-    return run_.contacts.check_motion(run_.system, run_.state, after, found_);
+    const std::vector<BlockState> after = states_after(system_, state_, problem_);
+    return caches_.contacts.check_motion(system_, state_, after, problem_.found);
   }
 
   /// Cuts the step to the first touch, or adds contacts where blocks resting on each other's edges would pass.
   void meet(const std::vector<PassingBlocks>& passing) {
     const double first = passing.front().touch.share;
-    if (first > run_.settings().search.smallest_cut && cuts_ < run_.settings().max_step_cuts) {
-      reject(run_, step_, RejectionReason::passing);
+    if (first > system_.settings().search.smallest_cut && cuts_ < system_.settings().max_step_cuts) {
+      reject(state_, step_, RejectionReason::passing);
       cut(first);
       return;
     }
     ++additions_;
-    found_ = with_passing(std::move(found_), passing);
-    run_.state.log.counts.passing_contacts += passing.size();
+    problem_.found = with_passing(std::move(problem_.found), passing);
+    state_.log.counts.passing_contacts += passing.size();
     pair_up();
   }
 
   /// True if the step may end in its state; otherwise the step has been cut.
   bool can_end() {
-    if (!carry_blocks(run_, problem_)) {
-      reject(run_, step_, RejectionReason::no_shape);
+    if (!carry_blocks(system_, state_, problem_)) {
+      reject(state_, step_, RejectionReason::no_shape);
       cut(0.5);
       return false;
     }
-    const bool fine = (run_.state.steps + 1) % run_.settings().depth.fine_interval == 0;
-    if (const auto deep = audit_depths(run_, problem_, fine)) {
-      reject(run_, step_, *deep);
-      cut(0.5);
+    const bool fine = (state_.steps + 1) % system_.settings().depth.fine_interval == 0;
+    if (const auto deep = audit_depths(system_, state_, caches_, problem_, fine)) {
+      reject_for(*deep);
       return false;
     }
     return true;
@@ -129,14 +137,16 @@ class DynamicStep {
   /// Undoes the separation of blocks; the log keeps its counts.
   void take_back_moves() {
     if (moves_ == 0) return;
-    unmoved_->run.log = run_.state.log;
-    unmoved_->run.log.counts = counts_of(run_.state, run_.contacts, run_.factors);
-    restore(run_, *unmoved_);
+    unmoved_->run.log = state_.log;
+    unmoved_->run.log.counts = counts_of(state_, caches_);
+    restore(system_, state_, caches_, *unmoved_);
   }
 
-  const RunContext& run_;
+  BlockSystem& system_;
+  RunState& state_;
+  StepCaches& caches_;
+  std::optional<StateFault>& fault_;
   double step_;  ///< s
-  std::vector<FoundContacts> found_;
   StepProblem problem_;
   std::optional<SimulationSnapshot> unmoved_;  ///< before blocks were separated
   int moves_ = 0;
@@ -148,14 +158,17 @@ class DynamicStep {
 }  // namespace
 
 StepStatus take_step(const RunContext& run, double end_time) {
-  release_quiet_faces(run);
-  double step = run.state.next_step;
-  const double left = end_time - run.state.time();
-  if (left < step - time_rounding(run.settings().time_step, end_time)) step = left;
-  if (run.settings().integrator == Integrator::generalized_alpha && run.state.accelerations.empty())
-    run.state.accelerations = smooth_accelerations(run.system, run.state);
-  wake_for_loads(run, step);
-  commit_bolts(run.state);
+  BlockSystem& system = run.system;
+  RunState& state = run.state;
+  const SimulationSettings& settings = system.settings();
+  release_quiet_faces(system, state, run.caches);
+  double step = state.next_step;
+  const double left = end_time - state.time();
+  if (left < step - time_rounding(settings.time_step, end_time)) step = left;
+  if (settings.integrator == Integrator::generalized_alpha && state.accelerations.empty())
+    state.accelerations = smooth_accelerations(system, state);
+  wake_for_loads(system, state, step);
+  commit_bolts(state);
   return DynamicStep(run, step).run();
 }
 

@@ -25,28 +25,30 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
 }
 
 /// Allowed depth of two blocks beyond their initial overlap, m. @param share of the smaller one's size
-double allowed_depth(const RunContext& run, int a, int b, double share) {
-  const double allowed = run.settings().depth.allowed_depth;
-  return history_of(run.state.pairs, {a, b}).overlap +
-         (allowed > 0.0 ? allowed : share * run.system.smaller_size({a, b}));
+double allowed_depth(const BlockSystem& system, const PairHistories& pairs, const PairKey& blocks,
+                     double share) {
+  const double allowed = system.settings().depth.allowed_depth;
+  return history_of(pairs, blocks).overlap + (allowed > 0.0 ? allowed : share * system.smaller_size(blocks));
 }
 
 /// Depths of blocks in each other. @param fine see SimulationSettings::depth::fine_interval
 /// @param known of earlier audits
-Audit measure_depths(const RunContext& run, const std::vector<BlockState>& states, bool fine,
-                     const KnownDepths& known) {
-  const SimulationSettings& settings = run.settings();
-  const AuditScope scope{[&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
-                         run.system.moving(),
+Audit measure_depths(const BlockSystem& system, StepCaches& caches, const std::vector<BlockState>& states,
+                     bool fine, const KnownDepths& known) {
+  const SimulationSettings& settings = system.settings();
+  const ContactFinder& finder = caches.contacts.finder();
+  const AuditScope scope{[&finder](int a, int b) { return !finder.leaves_out(a, b); },
+                         system.moving(),
                          (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
                          settings.threads,
                          settings.cached_motion(),
                          fine};
-  return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope, known);
+  return caches.audit.run(system.blocks(), states, finder.surfaces(), scope, known);
 }
 
 /// The pair that exceeds its allowed depth by most. @param known depths of contacts, m
-std::optional<StateFault> too_deep_of(const RunContext& run, const std::vector<PairDepth>& depths,
+std::optional<StateFault> too_deep_of(const BlockSystem& system, const PairHistories& pairs,
+                                      const std::vector<PairDepth>& depths,
                                       const std::map<PairKey, double>& known) {
   std::optional<StateFault> fault;
   double most = 0.0;
@@ -56,27 +58,28 @@ std::optional<StateFault> too_deep_of(const RunContext& run, const std::vector<P
     fault = StateFault{RejectionReason::too_deep, pair.blocks, pair.depth, allowed, pair.place};
   };
   for (const PairDepth& pair : depths) {
-    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    const auto [a, b] = key_of(pair.blocks);
     const auto contact = known.find({a, b});
-    hold_against(pair, allowed_depth(run, a, b, run.settings().depth.unknown_depth_share) +
+    hold_against(pair, allowed_depth(system, pairs, {a, b}, system.settings().depth.unknown_depth_share) +
                            (contact == known.end() ? 0.0 : contact->second));
     // A joint of given stiffness deforms as its user has specified.
-    if (run.system.law(a, b).rigid)
-      hold_against(pair, allowed_depth(run, a, b, run.settings().depth.allowed_depth_share));
+    if (system.law(a, b).rigid)
+      hold_against(pair, allowed_depth(system, pairs, {a, b}, system.settings().depth.allowed_depth_share));
   }
   return fault;
 }
 
 }  // namespace
 
-std::optional<StateFault> broken_block(const RunContext& run, const StepProblem& problem) {
-  for (std::size_t k = 0; k < run.blocks().size(); ++k) {
-    if (!run.system.moving()[k]) continue;
-    const Eigen::MatrixX3d position = run.state.states[k].position + problem.bodies[k].motion();
+std::optional<StateFault> broken_block(const BlockSystem& system, const RunState& state,
+                                       const StepProblem& problem) {
+  for (std::size_t k = 0; k < system.blocks().size(); ++k) {
+    if (!system.moving()[k]) continue;
+    const Eigen::MatrixX3d position = state.states[k].position + problem.bodies[k].motion();
     const int block = static_cast<int>(k);
-    if (is_lost(run.blocks()[k], problem.bodies[k], position, run.settings().depth.lost_share))
+    if (is_lost(system.blocks()[k], problem.bodies[k], position, system.settings().depth.lost_share))
       return StateFault{RejectionReason::not_finite, {block, block}};
-    const Eigen::MatrixXd* gradients = run.system.asked_gradients(block);
+    const Eigen::MatrixXd* gradients = system.asked_gradients(block);
     if (gradients == nullptr) continue;
     const Eigen::MatrixX3d deformation = *gradients * position;
     for (Eigen::Index row = 0; row < deformation.rows(); row += 3) {
@@ -87,9 +90,10 @@ std::optional<StateFault> broken_block(const RunContext& run, const StepProblem&
   return std::nullopt;
 }
 
-std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& problem, bool fine) {
-  const Stopwatch watch(run.state.log.seconds.depth_audit);
-  problem.audit = measure_depths(run, states_after(run.system, run.state, problem), fine, run.state.depths);
+std::optional<StateFault> audit_depths(const BlockSystem& system, RunState& state, StepCaches& caches,
+                                       StepProblem& problem, bool fine) {
+  const Stopwatch watch(state.log.seconds.depth_audit);
+  problem.audit = measure_depths(system, caches, states_after(system, state, problem), fine, state.depths);
   std::map<PairKey, double> known;
   for (const ContactPair& pair : problem.pairs) {
     if (pair.tied()) continue;
@@ -98,71 +102,66 @@ std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& probl
          pair.gaps(problem.bodies[at(pair.a())].change, problem.bodies[at(pair.b())].change))
       deepest = std::max(deepest, -gap);
   }
-  return too_deep_of(run, problem.audit.depths, known);
+  return too_deep_of(system, state.pairs, problem.audit.depths, known);
 }
 
-PresentDepths audit_present(const RunContext& run) {
-  const Stopwatch watch(run.state.log.seconds.depth_audit);
+PresentDepths audit_present(const BlockSystem& system, RunState& state, StepCaches& caches) {
+  const Stopwatch watch(state.log.seconds.depth_audit);
   std::map<PairKey, double> known;
-  for (const PairRecord& pair : run.state.records) {
+  for (const PairRecord& pair : state.records) {
     double& deepest = known[{pair.a, pair.b}];
     for (const double gap : pair.gaps) deepest = std::max(deepest, -gap);
   }
   PresentDepths present;
-  const Audit audit = measure_depths(run, run.state.states, true, {});
+  const Audit audit = measure_depths(system, caches, state.states, true, {});
   for (const PairDepth& pair : audit.depths) {
-    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    const auto [a, b] = key_of(pair.blocks);
     const auto contact = known.find({a, b});
-    const PairHistory& noted = history_of(run.state.pairs, {a, b});
+    const PairHistory& noted = history_of(state.pairs, {a, b});
     const double expected =
         std::max(noted.depth, noted.overlap + (contact == known.end() ? 0.0 : contact->second));
-    present.unexpected = present.unexpected || pair.depth > expected + run.settings().contact_distance;
+    present.unexpected = present.unexpected || pair.depth > expected + system.settings().contact_distance;
   }
-  note_depths(run, audit.depths);
-  present.fault = too_deep_of(run, audit.depths, known);
+  note_depths(system, state, audit.depths);
+  present.fault = too_deep_of(system, state.pairs, audit.depths, known);
   return present;
 }
 
-void note_depths(const RunContext& run, const std::vector<PairDepth>& depths) {
-  for (auto& [blocks, pair] : run.state.pairs) {
-    if (run.system.moving()[at(blocks[0])] || run.system.moving()[at(blocks[1])]) pair.depth = 0.0;
-    run.state.report.depth = std::max(run.state.report.depth, pair.depth - pair.overlap);
+void note_depths(const BlockSystem& system, RunState& state, const std::vector<PairDepth>& depths) {
+  for (auto& [blocks, pair] : state.pairs) {
+    if (system.moving()[at(blocks[0])] || system.moving()[at(blocks[1])]) pair.depth = 0.0;
+    state.report.depth = std::max(state.report.depth, pair.depth - pair.overlap);
   }
   for (const PairDepth& pair : depths) {
-    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
-    PairHistory& history = run.state.pairs[{a, b}];
+    const auto [a, b] = key_of(pair.blocks);
+    PairHistory& history = state.pairs[{a, b}];
     history.depth = std::max(history.depth, pair.depth);
     const double depth = pair.depth - history.overlap;
-    run.state.report.depth = std::max(run.state.report.depth, depth);
-    if (depth > run.state.extremes.deepest.depth)
-      run.state.extremes.deepest = {pair.blocks, depth, depth / run.system.smaller_size(pair.blocks),
-                                    run.state.time(), pair.place};
+    state.report.depth = std::max(state.report.depth, depth);
+    if (depth > state.extremes.deepest.depth)
+      state.extremes.deepest = {pair.blocks, depth, depth / system.smaller_size(pair.blocks), state.time(),
+                                pair.place};
   }
 }
 
-void reject(const RunContext& run, double step, const StateFault& fault) {
-  reject(run, step, fault.reason);
-  run.fault = fault;
-}
-
-void reject(const RunContext& run, double step, RejectionReason reason) {
-  run.state.log.rejections.push_back({run.state.time(), step, reason});
-}
-
-void reject_unsettled(const RunContext& run, double step, IslandStatus status, const StepProblem& problem) {
+RejectionCause cause_of_failure(const BlockSystem& system, const RunState& state, const StepProblem& problem,
+                                IslandStatus status) {
   // A step that overflows cannot converge.
-  if (const auto broken = broken_block(run, problem); broken && broken->reason == RejectionReason::not_finite)
-    return reject(run, step, *broken);
-  run.fault.reset();
+  if (const auto broken = broken_block(system, state, problem);
+      broken && broken->reason == RejectionReason::not_finite)
+    return {broken->reason, broken};
+  if (status != IslandStatus::not_converged) return {RejectionReason::not_positive_definite, std::nullopt};
+  constexpr RejectionReason reason = RejectionReason::open_close_not_settled;
   const auto found =
       std::find_if(problem.results.begin(), problem.results.end(), [](const IslandResult& result) {
         return result.status == IslandStatus::not_converged && result.alternating[0] >= 0;
       });
-  if (status == IslandStatus::not_converged && found != problem.results.end())
-    return reject(run, step, StateFault{RejectionReason::open_close_not_settled, found->alternating});
-  reject(run, step,
-         status == IslandStatus::not_converged ? RejectionReason::open_close_not_settled
-                                               : RejectionReason::not_positive_definite);
+  if (found == problem.results.end()) return {reason, std::nullopt};
+  return {reason, StateFault{reason, found->alternating}};
+}
+
+void reject(RunState& state, double step, RejectionReason reason) {
+  state.log.rejections.push_back({state.time(), step, reason});
 }
 
 }  // namespace ashlar

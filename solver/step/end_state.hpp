@@ -5,17 +5,19 @@
 #include <optional>
 #include <vector>
 
-#include "solver/step/run_context.hpp"
+#include "solver/step/step_caches.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
 
 /// Fault of a block's state at the end of a problem: not finite or inverted. Empty if all states are valid.
-[[nodiscard]] std::optional<StateFault> broken_block(const RunContext& run, const StepProblem& problem);
+[[nodiscard]] std::optional<StateFault> broken_block(const BlockSystem& system, const RunState& state,
+                                                     const StepProblem& problem);
 
-/// Measures the penetrations of blocks at the end of a problem, which keeps them.
+/// Measures the penetrations of blocks at the end of a problem, which keeps them. @param state its log counts the time
 /// @param fine see SimulationSettings::depth::fine_interval. @return the pair that exceeds its allowed depth by most
-[[nodiscard]] std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& problem, bool fine);
+[[nodiscard]] std::optional<StateFault> audit_depths(const BlockSystem& system, RunState& state,
+                                                     StepCaches& caches, StepProblem& problem, bool fine);
 /// Depths of the present state.
 struct PresentDepths {
   std::optional<StateFault> fault;  ///< pair that exceeds its allowed depth by most
@@ -24,15 +26,19 @@ struct PresentDepths {
   bool unexpected = false;
 };
 /// Measures the depths of the present state with the fine audit and records them.
-[[nodiscard]] PresentDepths audit_present(const RunContext& run);
+[[nodiscard]] PresentDepths audit_present(const BlockSystem& system, RunState& state, StepCaches& caches);
 /// Records depths at the present time.
-void note_depths(const RunContext& run, const std::vector<PairDepth>& depths);
+void note_depths(const BlockSystem& system, RunState& state, const std::vector<PairDepth>& depths);
 
-/// Records a step rejected for the state at its end.
-void reject(const RunContext& run, double step, const StateFault& fault);
-/// Records a step that was cut for another reason.
-void reject(const RunContext& run, double step, RejectionReason reason);
-/// Records a step whose islands did not converge: the status, or an overflow.
-void reject_unsettled(const RunContext& run, double step, IslandStatus status, const StepProblem& problem);
+/// Cause of a rejection.
+struct RejectionCause {
+  RejectionReason reason;
+  std::optional<StateFault> fault;  ///< of the state at the end of the step, if that is the cause
+};
+/// Cause of a step whose islands did not converge: the status, or an overflow.
+[[nodiscard]] RejectionCause cause_of_failure(const BlockSystem& system, const RunState& state,
+                                              const StepProblem& problem, IslandStatus status);
+/// Records a rejected step. @param step its length, s
+void reject(RunState& state, double step, RejectionReason reason);
 
 }  // namespace ashlar

@@ -179,8 +179,8 @@ void validate(const std::vector<Island>& islands, const std::vector<bool>& movin
   }
 }
 
-std::vector<std::array<int, 2>> contacts_of(const Island& island, const std::vector<ContactPair>& pairs) {
-  std::vector<std::array<int, 2>> result;
+std::vector<PairKey> contacts_of(const Island& island, const std::vector<ContactPair>& pairs) {
+  std::vector<PairKey> result;
   for (const int index : island.pairs) {
     const ContactPair& pair = pairs[at(index)];
     if (!pair.tied()) result.push_back({pair.a(), pair.b()});

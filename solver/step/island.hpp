@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/block_pair.hpp"
 #include "solver/bolts/step_bolt.hpp"
 #include "solver/contact/contact_pair.hpp"
 #include "solver/linear/block_matrix.hpp"
@@ -26,7 +27,7 @@ enum class IslandStatus {
 /// One moving block within a step. Vectors are in the block's unknowns, also those of a rigid one (rigid_body.hpp).
 struct BodyStep {
   const BlockModel* model = nullptr;
-  const BlockState* state = nullptr;
+  const BlockState* state = nullptr;  ///< at the start of the step
   Eigen::VectorXd free_change;     ///< change without forces, see time_scheme.hpp
   Eigen::VectorXd external_force;  ///< evaluated where the integrator requires it
   double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
@@ -59,7 +60,7 @@ struct BodyStep {
   [[nodiscard]] Eigen::MatrixX3d motion() const;
   /// Remembers the elastic force at the start of the step.
   void note_start_force();
-  /// `elastic.force` and the force of damping by stiffness, (p, 3). To be called before the state is updated
+  /// `elastic.force` and the force of damping by stiffness, (p, 3).
   [[nodiscard]] Eigen::MatrixX3d internal_force(const TimeScheme& scheme) const;
   /// Force of the block on its dashpots; empty: there are none.
   [[nodiscard]] Eigen::VectorXd dashpot_force(const TimeScheme& scheme) const;
@@ -83,7 +84,7 @@ struct IslandResult {
   /// Pairs whose rows were updated, by index. The responses belong to them.
   std::vector<std::pair<int, ContactPair>> followed;
   /// If not converged: blocks of the pair whose points have changed state most often; -1: none did
-  std::array<int, 2> alternating = {-1, -1};
+  BlockPair alternating = {-1, -1};
 };
 
 /// Factor that later steps may use, by the data that it is rebuilt from.
@@ -145,8 +146,7 @@ void validate(const std::vector<Island>& islands, const std::vector<bool>& movin
               const std::vector<ContactPair>& pairs);
 
 /// Pairs of blocks of an island's contacts, ties left out.
-[[nodiscard]] std::vector<std::array<int, 2>> contacts_of(const Island& island,
-                                                          const std::vector<ContactPair>& pairs);
+[[nodiscard]] std::vector<PairKey> contacts_of(const Island& island, const std::vector<ContactPair>& pairs);
 
 /// Purpose of a system; each keeps its own factor.
 enum class SystemRole { step, stop };

@@ -14,10 +14,30 @@ void open(PointLaw& law) {
   law.cohesion = 0.0;
 }
 
+/// Fails points with cohesion that have opened by more than rounding error. @return true if any has failed
+bool open_joints(IslandProblem& problem) {
+  bool opened = false;
+  for (std::size_t pair = 0; pair < problem.pairs(); ++pair) {
+    std::vector<PointLaw>& laws = problem.laws()[pair];
+    if (std::none_of(laws.begin(), laws.end(), [](const PointLaw& law) { return law.bridged; })) continue;
+    const std::vector<double> gaps = problem.gaps(pair);
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      PointLaw& law = laws[k];
+      if (!law.bridged || problem.responses()[pair].points[k].tangent(0, 0) > 0.0 ||
+          gaps[k] - problem.pair(pair).dilation_before(k) <= problem.settings().tearing_gap())
+        continue;
+      law.bridged = false;
+      open(law);
+      opened = true;
+    }
+  }
+  return opened;
+}
+
 }  // namespace
 
-JointFailure::JointFailure(IslandProblem& problem) : problem_(problem) {
-  for (auto& laws : problem_.laws()) {
+JointFailure::JointFailure(IslandProblem& problem) {
+  for (auto& laws : problem.laws()) {
     strengths_.emplace_back();
     for (PointLaw& law : laws) {
       strengths_.back().push_back(law.tension);
@@ -31,43 +51,24 @@ JointFailure::JointFailure(IslandProblem& problem) : problem_(problem) {
   }
 }
 
-bool JointFailure::break_joints() {
+bool JointFailure::break_joints(IslandProblem& problem) const {
   double most = 0.0;
   const auto excess = [&](std::size_t pair, std::size_t point) {
-    return std::isinf(problem_.laws()[pair][point].tension)
-               ? -problem_.responses()[pair].points[point].force[0] - strengths_[pair][point]
+    return std::isinf(problem.laws()[pair][point].tension)
+               ? -problem.responses()[pair].points[point].force[0] - strengths_[pair][point]
                : 0.0;
   };
   for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
     for (std::size_t k = 0; k < strengths_[pair].size(); ++k) most = std::max(most, excess(pair, k));
   }
-  if (!(most > 0.0)) return open_joints();
+  if (!(most > 0.0)) return open_joints(problem);
   for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
     for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
       if (excess(pair, k) < 0.5 * most) continue;
-      open(problem_.laws()[pair][k]);
+      open(problem.laws()[pair][k]);
     }
   }
   return true;
-}
-
-bool JointFailure::open_joints() {
-  bool opened = false;
-  for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-    std::vector<PointLaw>& laws = problem_.laws()[pair];
-    if (std::none_of(laws.begin(), laws.end(), [](const PointLaw& law) { return law.bridged; })) continue;
-    const std::vector<double> gaps = problem_.gaps(pair);
-    for (std::size_t k = 0; k < laws.size(); ++k) {
-      PointLaw& law = laws[k];
-      if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0 ||
-          gaps[k] - problem_.pair(pair).dilation_before(k) <= problem_.settings().tearing_gap())
-        continue;
-      law.bridged = false;
-      open(law);
-      opened = true;
-    }
-  }
-  return opened;
 }
 
 }  // namespace ashlar

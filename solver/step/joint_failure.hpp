@@ -14,19 +14,15 @@ namespace ashlar {
 
 class JointFailure {
  public:
-  /// Bonds the joints of an island. @param problem must outlive this
+  /// Bonds the joints of an island.
   explicit JointFailure(IslandProblem& problem);
 
   /// Fails the joints with at least half of the largest overstress, or if none is overstressed those that have
   /// opened.
-  /// @return true if any has failed
-  bool break_joints();
+  /// @param problem that of the constructor. @return true if any has failed
+  bool break_joints(IslandProblem& problem) const;
 
  private:
-  /// Fails points with cohesion that have opened by more than rounding error. @return true if any has failed
-  bool open_joints();
-
-  IslandProblem& problem_;
   std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
 };
 

@@ -30,13 +30,12 @@ class OpenClose {
       : problem_(problem),
         tangent_(problem),
         failure_(problem),
-        augmentation_(problem),
         settings_(problem.settings()),
         result_(result),
         may_split_(!problem.scheme().is_static() && problem.pairs() >= many_pairs) {}
 
   /// Blocks of the pair whose points have changed state most often; -1: none did.
-  [[nodiscard]] std::array<int, 2> alternating() const {
+  [[nodiscard]] BlockPair alternating() const {
     const auto most = std::max_element(changes_.begin(), changes_.end());
     if (most == changes_.end() || *most == 0) return {-1, -1};
     const ContactPair& pair = problem_.pair(static_cast<std::size_t>(most - changes_.begin()));
@@ -57,8 +56,8 @@ class OpenClose {
         outcome = minimise();
       }
       if (outcome != Outcome::converged) return outcome;
-      if (!failure_.break_joints()) {
-        if (settings_.augmented && augmentation_.adjust()) {
+      if (!failure_.break_joints(problem_)) {
+        if (settings_.augmented && augmentation_.adjust(problem_)) {
           if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
         } else if (evaluations < settings_.iteration.contact_evaluations && follow()) {
           ++evaluations;

@@ -11,20 +11,20 @@
 
 #include <vector>
 
-#include "solver/step/run_context.hpp"
+#include "solver/step/step_caches.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
 
 /// True if multipliers hold points so deep that a step could leave them beyond the penetration tolerance.
-[[nodiscard]] bool too_deep(const RunContext& run, const std::vector<ContactPair>& pairs);
+[[nodiscard]] bool too_deep(const BlockSystem& system, const RunState& state,
+                            const std::vector<ContactPair>& pairs);
 
 /// Separates the blocks of such points before the step that a problem is for.
-/// @param step s. @param problem its pairs are those of `found`
-/// @param found replaced together with the pairs if blocks would pass through each other on the way
-/// @param additions largest number of such replacements
+/// @param step s. @param problem its contacts and pairs are replaced if blocks would pass through each other on the
+/// way, at most settings.multipliers.moves_apart times
 /// @return true if any block was moved: contacts have to be detected again
-bool project_positions(const RunContext& run, double step, StepProblem& problem,
-                       std::vector<FoundContacts>& found, int additions);
+bool project_positions(BlockSystem& system, RunState& state, StepCaches& caches, double step,
+                       StepProblem& problem);
 
 }  // namespace ashlar

@@ -30,14 +30,16 @@ TimeScheme at_rest() {
 
 /// Residual forces on the unknowns of released blocks in the present state. @param released increasing blocks
 /// @return in their order
-std::vector<Eigen::VectorXd> residuals(const RunContext& run, const std::vector<Released>& released) {
+std::vector<Eigen::VectorXd> residuals(const BlockSystem& system, RunState& state, StepCaches& caches,
+                                       const std::vector<Released>& released) {
   const TimeScheme scheme = at_rest();
   StepProblem problem;
-  const std::vector<FoundContacts> found = run.contacts.detect(run.system, run.state, 0.0);
-  problem.pairs = run.contacts.pairs(run.system, run.state, found, PairUse::motion);
-  pose_step(run.system, run.state, scheme, problem);
+  problem.found = caches.contacts.detect(system, state, 0.0);
+  problem.pairs = caches.contacts.pairs(system, state, problem.found, PairUse::motion);
+  pose_step(system, state, scheme, problem);
   for (const Released& one : released)
-    problem.bodies[at(one.block)].external_force = run.blocks()[at(one.block)].space().restrict(one.external);
+    problem.bodies[at(one.block)].external_force =
+        system.blocks()[at(one.block)].space().restrict(one.external);
   std::vector<Eigen::VectorXd> result(released.size());
   for (const Island& island : problem.islands) {
     std::vector<std::pair<std::size_t, int>> there;  // in `released`, and among the bodies
@@ -48,49 +50,51 @@ std::vector<Eigen::VectorXd> residuals(const RunContext& run, const std::vector<
     }
     if (there.empty()) continue;
     IslandSolvers::Entry& solver =
-        solver_of(island, problem.bodies, problem.pairs, SystemRole::step, run.factors.islands);
-    IslandProblem equations(island, problem.bodies, problem.pairs, scheme, run.settings(), solver);
+        solver_of(island, problem.bodies, problem.pairs, SystemRole::step, caches.factors.islands);
+    IslandProblem equations(island, problem.bodies, problem.pairs, scheme, system.settings(), solver);
     equations.respond();
     const Eigen::VectorXd force = equations.residual().force;
     for (const auto& [n, place] : there)
-      result[n] = force.segment(solver.matrix.offset(place), run.blocks()[at(released[n].block)].unknowns());
+      result[n] =
+          force.segment(solver.matrix.offset(place), system.blocks()[at(released[n].block)].unknowns());
   }
   return result;
 }
 
 }  // namespace
 
-void release_quiet_faces(const RunContext& run) {
+void release_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches) {
   std::vector<Released> released;
   BlockPartsLibrary library;
-  for (const int k : run.system.quiet()) {
-    const BlockModel& block = run.blocks()[at(k)];
+  for (const int k : system.quiet()) {
+    const BlockModel& block = system.blocks()[at(k)];
     if (!block.holds_quiet_faces()) continue;
-    released.push_back({k, block.parts(), external_force(run.system, run.state.clock, k, at_rest())});
-    replace_model(run, k, block.with_quiet_faces(true, library));
+    released.push_back({k, block.parts(), external_force(system, state.clock, k, at_rest())});
+    replace_model(system, state, caches, k, block.with_quiet_faces(true, library));
   }
   if (released.empty()) return;
-  const std::vector<Eigen::VectorXd> forces = residuals(run, released);
+  const std::vector<Eigen::VectorXd> forces = residuals(system, state, caches, released);
   for (std::size_t n = 0; n < released.size(); ++n) {
-    const BlockModel& block = run.blocks()[at(released[n].block)];
+    const BlockModel& block = system.blocks()[at(released[n].block)];
     const AdmissibleSpace& held = released[n].held->space;
     const Eigen::MatrixX3d missing = -block.space().expand(forces[n]);
-    run.system.set_reaction(released[n].block, missing - held.expand(held.restrict(missing)));
+    system.set_reaction(released[n].block, missing - held.expand(held.restrict(missing)));
   }
 }
 
-void hold_quiet_faces(const RunContext& run) {
-  set_reactions(run, {});
+void hold_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches) {
+  set_reactions(system, state, caches, {});
 }
 
-void set_reactions(const RunContext& run, const std::map<int, Eigen::MatrixX3d>& reactions) {
+void set_reactions(BlockSystem& system, RunState& state, StepCaches& caches,
+                   const std::map<int, Eigen::MatrixX3d>& reactions) {
   BlockPartsLibrary library;
-  for (const int k : run.system.quiet()) {
+  for (const int k : system.quiet()) {
     const auto reaction = reactions.find(k);
     const bool releases = reaction != reactions.end();
-    if (run.blocks()[at(k)].holds_quiet_faces() == releases)
-      replace_model(run, k, run.blocks()[at(k)].with_quiet_faces(releases, library));
-    if (releases) run.system.set_reaction(k, reaction->second);
+    if (system.blocks()[at(k)].holds_quiet_faces() == releases)
+      replace_model(system, state, caches, k, system.blocks()[at(k)].with_quiet_faces(releases, library));
+    if (releases) system.set_reaction(k, reaction->second);
   }
 }
 

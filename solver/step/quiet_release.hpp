@@ -8,17 +8,18 @@
 
 #include <map>
 
-#include "solver/step/run_context.hpp"
+#include "solver/step/step_caches.hpp"
 
 namespace ashlar {
 
 /// Releases quiet faces that are held. No effect without any.
-void release_quiet_faces(const RunContext& run);
+void release_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches);
 /// Holds quiet faces that are released at their present places; their reactions are dropped.
-void hold_quiet_faces(const RunContext& run);
+void hold_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches);
 
 /// Releases the quiet faces of these blocks, with these reactions, and holds those of all others.
 /// @param reactions (p, 3) by block, of blocks with quiet faces
-void set_reactions(const RunContext& run, const std::map<int, Eigen::MatrixX3d>& reactions);
+void set_reactions(BlockSystem& system, RunState& state, StepCaches& caches,
+                   const std::map<int, Eigen::MatrixX3d>& reactions);
 
 }  // namespace ashlar

@@ -16,14 +16,15 @@
 namespace ashlar {
 namespace {
 
-/// Largest gap of points that are about to touch, m.
-double touching_gap(const SimulationSettings& settings) {
-  return settings.search.passing_share * settings.contact_distance;
-}
+/// Limits of an impact.
+struct ImpactLimits {
+  double gap;    ///< largest of points that are about to touch, m
+  double speed;  ///< that gravity gives in a step, m/s
+};
 
-/// Speed that gravity gives in a step, m/s.
-double speed_of_a_step(const RunContext& run) {
-  return run.settings().gravity_at(run.state.time()).norm() * run.settings().time_step;
+ImpactLimits limits_of(const SimulationSettings& settings, double time) {
+  return {settings.search.passing_share * settings.contact_distance,
+          settings.gravity_at(time).norm() * settings.time_step};
 }
 
 /// Rigid motions that the supports of a block leave, orthonormal. @return (unknowns, at most 6)
@@ -43,26 +44,27 @@ Eigen::MatrixXd rigid_modes(const BlockModel& block, const BlockState& state) {
 /// Rigid motions and velocities of the blocks of a run, computed on first use.
 class RigidMotions {
  public:
-  explicit RigidMotions(const RunContext& run) : run_(run) {}
+  RigidMotions(const BlockSystem& system, const std::vector<BlockState>& states)
+      : system_(system), states_(states) {}
 
-  [[nodiscard]] bool moves(int block) const { return run_.system.moving()[at(block)]; }
+  [[nodiscard]] bool moves(int block) const { return system_.moving()[at(block)]; }
   const Eigen::MatrixXd& modes(int block) {
     const auto [found, is_new] = modes_.emplace(block, Eigen::MatrixXd());
-    if (is_new) found->second = rigid_modes(run_.blocks()[at(block)], run_.state.states[at(block)]);
+    if (is_new) found->second = rigid_modes(system_.blocks()[at(block)], states_[at(block)]);
     return found->second;
   }
   /// Rigid part of the velocity of the unknowns; zero of a block that does not move.
   Eigen::VectorXd velocity(int block) {
-    const BlockModel& model = run_.blocks()[at(block)];
+    const BlockModel& model = system_.blocks()[at(block)];
     if (!moves(block)) return Eigen::VectorXd::Zero(model.unknowns());
     const Eigen::MatrixXd& rigid = modes(block);
-    return rigid * (rigid.transpose() * model.space().restrict(run_.state.states[at(block)].velocity));
+    return rigid * (rigid.transpose() * model.space().restrict(states_[at(block)].velocity));
   }
   /// Velocity by moving supports, (p, 3); empty: none.
   [[nodiscard]] Eigen::MatrixX3d driven_velocity(int block) const {
-    const BlockModel& model = run_.blocks()[at(block)];
+    const BlockModel& model = system_.blocks()[at(block)];
     if (!model.driven()) return {};
-    const Eigen::MatrixX3d& velocity = run_.state.states[at(block)].velocity;
+    const Eigen::MatrixX3d& velocity = states_[at(block)].velocity;
     return model.fixed()
                ? velocity
                : Eigen::MatrixX3d(velocity - model.space().expand(model.space().restrict(velocity)));
@@ -70,13 +72,23 @@ class RigidMotions {
   /// Relative velocities of a pair's points along normals and tangents, m/s. @return (3, #points)
   Eigen::Matrix3Xd at_points(const ContactPair& pair) {
     PairRows rows = pair.rows();
-    rows.prescribe(pair.points(), run_.blocks()[at(pair.a())], driven_velocity(pair.a()),
-                   run_.blocks()[at(pair.b())], driven_velocity(pair.b()));
+    rows.prescribe(pair.points(), system_.blocks()[at(pair.a())], driven_velocity(pair.a()),
+                   system_.blocks()[at(pair.b())], driven_velocity(pair.b()));
     return rows.motion(velocity(pair.a()), velocity(pair.b()));
+  }
+  /// Accelerations of a pair's points by gravity and loads, along their normals, m/s^2.
+  [[nodiscard]] Eigen::RowVectorXd accelerations(const ContactPair& pair, const StepProblem& problem) const {
+    const auto of = [&](int block) -> Eigen::VectorXd {
+      const BlockModel& model = system_.blocks()[at(block)];
+      if (!moves(block)) return Eigen::VectorXd::Zero(model.unknowns());
+      return problem.bodies[at(block)].external_force / model.material().density;
+    };
+    return pair.rows().free_motion(of(pair.a()), of(pair.b())).row(0);
   }
 
  private:
-  const RunContext& run_;
+  const BlockSystem& system_;
+  const std::vector<BlockState>& states_;
   std::map<int, Eigen::MatrixXd> modes_;
 };
 
@@ -95,20 +107,10 @@ std::optional<Touch> touch_of(double gap, double velocity, double acceleration) 
   return Touch{2.0 * gap / (speed - velocity), speed};
 }
 
-/// Accelerations of a pair's points by gravity and loads, along their normals, m/s^2.
-Eigen::RowVectorXd accelerations(const RunContext& run, const ContactPair& pair, const StepProblem& problem) {
-  const auto of = [&](int block) -> Eigen::VectorXd {
-    const BlockModel& model = run.blocks()[at(block)];
-    if (!run.system.moving()[at(block)]) return Eigen::VectorXd::Zero(model.unknowns());
-    return problem.bodies[at(block)].external_force / model.material().density;
-  };
-  return pair.rows().free_motion(of(pair.a()), of(pair.b())).row(0);
-}
-
 /// Time of the first impact of a pair in a solved step, s; infinity: none.
-double first_impact(const RunContext& run, double step, const StepProblem& problem, const ContactPair& pair,
-                    RigidMotions& motions) {
-  const double touching = touching_gap(run.settings()), fast = speed_of_a_step(run);
+double first_impact(const StepProblem& problem, double step, const ContactPair& pair,
+                    const ImpactLimits& limits, RigidMotions& motions) {
+  const auto [touching, fast] = limits;
   double first = std::numeric_limits<double>::infinity();
   const Eigen::RowVectorXd end =
       pair.places(problem.bodies[at(pair.a())].change, problem.bodies[at(pair.b())].change).row(0);
@@ -119,7 +121,7 @@ double first_impact(const RunContext& run, double step, const StepProblem& probl
     if (end[k] > 0.0 || gap <= touching || pair.holds(static_cast<std::size_t>(k))) continue;
     if (velocities.size() == 0) {
       velocities = motions.at_points(pair).row(0);
-      rates = accelerations(run, pair, problem);
+      rates = motions.accelerations(pair, problem);
     }
     const double way = gap - 0.5 * touching;
     const Touch straight{step * way / (gap - end[k]), (gap - end[k]) / step};
@@ -132,12 +134,14 @@ double first_impact(const RunContext& run, double step, const StepProblem& probl
 /// An impact at one moment: the points of blocks that touch each other, directly or not.
 class ImpactOfBlocks {
  public:
-  ImpactOfBlocks(const RunContext& run, const std::vector<ContactPair>& pairs)
-      : run_(run),
+  ImpactOfBlocks(const BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs)
+      : system_(system),
+        state_(state),
+        limits_(limits_of(system.settings(), state.time())),
         pairs_(pairs),
-        motions_(run),
-        bonded_(run.blocks().size() + 1),
-        group_(run.blocks().size()) {
+        motions_(system, state.states),
+        bonded_(system.blocks().size() + 1),
+        group_(system.blocks().size()) {
     std::iota(group_.begin(), group_.end(), 0);
     for (const ContactPair& pair : pairs) note_bonds(pair);
   }
@@ -163,8 +167,8 @@ class ImpactOfBlocks {
           "its place, springs act");
     double lost = 0.0;
     for (const auto& [block, index] : bodies_) {
-      const BlockModel& model = run_.blocks()[at(block)];
-      BlockState& state = run_.state.states[at(block)];
+      const BlockModel& model = system_.blocks()[at(block)];
+      BlockState& state = state_.states[at(block)];
       lost += model.kinetic_energy(state);
       state.velocity += model.space().expand(motions_.modes(block) * result.changes[at(index)]);
       lost -= model.kinetic_energy(state);
@@ -172,8 +176,8 @@ class ImpactOfBlocks {
     // Supports move against the impulses.
     double of_supports = 0.0;
     for (std::size_t k = 0; k < points_.size(); ++k) of_supports -= result.impulses[k].dot(driven_[k]);
-    run_.state.ledger.loads_did(of_supports);
-    run_.state.ledger.damping_took(lost + of_supports);
+    state_.ledger.loads_did(of_supports);
+    state_.ledger.damping_took(lost + of_supports);
   }
 
  private:
@@ -195,7 +199,7 @@ class ImpactOfBlocks {
   /// Blocks that cannot move rigidly are one with the ground.
   [[nodiscard]] int body_or_ground(int block) {
     const bool moves = motions_.moves(block) && motions_.modes(block).cols() > 0;
-    return moves ? block : static_cast<int>(run_.blocks().size());
+    return moves ? block : static_cast<int>(system_.blocks().size());
   }
   void note_bonds(const ContactPair& pair) {
     for (std::size_t k = 0; k < pair.points().size(); ++k) {
@@ -209,7 +213,7 @@ class ImpactOfBlocks {
   bool note_touching(std::size_t n) {
     const ContactPair& pair = pairs_[n];
     meets_.resize(group_.size(), false);
-    const double gap = touching_gap(run_.settings()), fast = speed_of_a_step(run_);
+    const auto [gap, fast] = limits_;
     const double e = pair.restitution().value_or(0.0);
     const bool apart = bonded_.find(body_or_ground(pair.a())) != bonded_.find(body_or_ground(pair.b()));
     std::optional<Eigen::Matrix3Xd> velocities;
@@ -248,7 +252,7 @@ class ImpactOfBlocks {
     if (!motions_.moves(block)) return -1;
     const auto [found, is_new] = bodies_.emplace(block, static_cast<int>(bodies_.size()));
     if (is_new) {
-      inertia_.push_back(run_.blocks()[at(block)].material().density);
+      inertia_.push_back(system_.blocks()[at(block)].material().density);
       sizes_.push_back(static_cast<int>(motions_.modes(block).cols()));
     }
     return found->second;
@@ -261,7 +265,7 @@ class ImpactOfBlocks {
     const Eigen::MatrixXd& modes = motions_.modes(block);
     for (Eigen::Matrix3Xd& row : rows) row.resize(3, modes.cols());
     const Eigen::VectorXd rest =
-        Eigen::VectorXd::Zero(run_.blocks()[at(of_a ? pair.b() : pair.a())].unknowns());
+        Eigen::VectorXd::Zero(system_.blocks()[at(of_a ? pair.b() : pair.a())].unknowns());
     for (Eigen::Index m = 0; m < modes.cols(); ++m) {
       const Eigen::VectorXd mode = modes.col(m);
       const Eigen::Matrix3Xd moved = of_a ? pair.rows().free_motion(mode, rest)  //
@@ -291,7 +295,9 @@ class ImpactOfBlocks {
     }
   }
 
-  const RunContext& run_;
+  const BlockSystem& system_;
+  RunState& state_;
+  ImpactLimits limits_;
   const std::vector<ContactPair>& pairs_;
   RigidMotions motions_;
   UnionFind bonded_;                ///< blocks that bonds hold together, and the ground behind them
@@ -312,21 +318,23 @@ bool any_rebounds(const std::vector<ContactPair>& pairs) {
 
 }  // namespace
 
-std::optional<double> share_until_impact(const RunContext& run, double step, const StepProblem& problem) {
+std::optional<double> share_until_impact(const BlockSystem& system, const RunState& state, double step,
+                                         const StepProblem& problem) {
   if (!any_rebounds(problem.pairs)) return std::nullopt;
-  RigidMotions motions(run);
+  RigidMotions motions(system, state.states);
+  const ImpactLimits limits = limits_of(system.settings(), state.time());
   double first = std::numeric_limits<double>::infinity();
   for (const ContactPair& pair : problem.pairs)
-    if (pair.restitution()) first = std::min(first, first_impact(run, step, problem, pair, motions));
+    if (pair.restitution()) first = std::min(first, first_impact(problem, step, pair, limits, motions));
   if (std::isinf(first)) return std::nullopt;
   // A prediction that does not shorten the step has missed what turns or bends.
   constexpr double shorter = 0.999;
   return first < shorter * step ? first / step : 0.5;
 }
 
-bool rebound(const RunContext& run, const std::vector<ContactPair>& pairs) {
+bool rebound(const BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs) {
   if (!any_rebounds(pairs)) return false;
-  ImpactOfBlocks impact(run, pairs);
+  ImpactOfBlocks impact(system, state, pairs);
   if (!impact.find()) return false;
   impact.apply();
   return true;

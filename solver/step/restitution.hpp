@@ -16,19 +16,18 @@
 #include <optional>
 #include <vector>
 
-#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
 
 /// Share of a solved step that ends just before the first impact in it; empty: there is none.
 /// @param step its length, s
-[[nodiscard]] std::optional<double> share_until_impact(const RunContext& run, double step,
-                                                       const StepProblem& problem);
+[[nodiscard]] std::optional<double> share_until_impact(const BlockSystem& system, const RunState& state,
+                                                       double step, const StepProblem& problem);
 
 /// Applies the impulses of blocks that are about to touch at the start of a step: changes velocities and books the
 /// loss. @return true if there were any
 /// @throws std::runtime_error if the impulses do not converge: nothing has changed then
-bool rebound(const RunContext& run, const std::vector<ContactPair>& pairs);
+bool rebound(const BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs);
 
 }  // namespace ashlar

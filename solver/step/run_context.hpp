@@ -1,27 +1,22 @@
-// The parts of a simulation that its steps modify.
+// The parts of a simulation that its step drivers modify. Other functions take only what they use.
 #pragma once
 
 #include <optional>
 
-#include "solver/contact/depth_audit.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
-#include "solver/step/factor_cache.hpp"
-#include "solver/step/step_contacts.hpp"
+#include "solver/step/step_caches.hpp"
 
 namespace ashlar {
 
-/// All refer to one simulation and must outlive this.
+/// All refer to one simulation, for the duration of one call.
 struct RunContext {
   BlockSystem& system;
   RunState& state;
-  StepContacts& contacts;
-  FactorCache& factors;
-  DepthAudit& audit;
+  StepCaches& caches;
   std::optional<StateFault>&
       fault;  ///< fault at the end of the last rejected step, if it was rejected for one
 
-  [[nodiscard]] const std::vector<BlockModel>& blocks() const { return system.blocks(); }
   [[nodiscard]] const SimulationSettings& settings() const { return system.settings(); }
 };
 

@@ -12,19 +12,19 @@ namespace {
 
 /// Wakes islands that satisfy a condition: their blocks start from rest and have to come to rest again.
 template <class Condition>
-bool wake_if(const RunContext& run, const Condition& wakes) {
-  std::vector<SleepingIsland>& islands = run.state.sleep.islands;
+bool wake_if(BlockSystem& system, RunState& state, const Condition& wakes) {
+  std::vector<SleepingIsland>& islands = state.sleep.islands;
   std::vector<SleepingIsland> still;
   for (SleepingIsland& island : islands) {
     if (!wakes(island)) {
       still.push_back(std::move(island));
       continue;
     }
-    for (const int block : island.blocks) run.state.sleep.rests[at(block)] = BlockRest{};
+    for (const int block : island.blocks) state.sleep.rests[at(block)] = BlockRest{};
   }
   const bool any = still.size() != islands.size();
   islands = std::move(still);
-  if (any) hold_sleepers(run.system, run.state.sleep);
+  if (any) hold_sleepers(system, state.sleep);
   return any;
 }
 
@@ -47,33 +47,43 @@ double unbalanced_share(const Sleep& sleep, const BodyStep& body, const BlockRes
                       : 0.0;
 }
 
-/// @param velocities of the blocks' steady parts
-bool rests(const RunContext& run, const StepProblem& problem, const Island& island,
-           const std::vector<Eigen::MatrixX3d>& velocities) {
-  const RestSettings& settings = run.settings().rest;
-  const double way = settings.way_share * run.settings().contact_distance;
-  return std::all_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
-    const BlockRest& rest = run.state.sleep.rests[at(block)];
-    return rest.last_path + rest.path + run.contacts.finder().checked_motion(block) <= way &&
-           rest.path <= settings.fading * rest.last_path &&
-           unbalanced_share(run.state.sleep, problem.bodies[at(block)], rest, velocities[at(block)]) <=
-               settings.unbalanced_share;
-  });
+/// True if a block hardly moves any more. @param checked upper bound of its path in the last step, m
+bool fades(const SimulationSettings& settings, const BlockRest& rest, double checked) {
+  return rest.last_path + rest.path + checked <= settings.rest.way_share * settings.contact_distance &&
+         rest.path <= settings.rest.fading * rest.last_path;
 }
 
-void put_to_sleep(const RunContext& run, const StepProblem& problem, std::size_t island) {
+/// Adds a step to the paths of blocks. @return by block, velocities of their steady parts
+std::vector<Eigen::MatrixX3d> note_paths(const ContactFinder& finder, const StepProblem& problem,
+                                         Sleep& sleep) {
+  std::vector<Eigen::MatrixX3d> velocities(problem.bodies.size());
+  for (const Island& island : problem.islands) {
+    for (const int block : island.bodies) {
+      BlockRest& rest = sleep.rests[at(block)];
+      Eigen::MatrixX3d motion = problem.bodies[at(block)].motion();
+      const Eigen::MatrixX3d steady = steady_part(motion, rest);
+      rest.path += finder.motion_bound(block, steady);
+      rest.motion = std::move(motion);
+      velocities[at(block)] = steady / problem.scheme.step;
+    }
+  }
+  return velocities;
+}
+
+void put_to_sleep(const BlockSystem& system, RunState& state, const StepProblem& problem,
+                  std::size_t island) {
   SleepingIsland sleeping{problem.islands[island].bodies, 0.0};
   for (const PairResponse& response : problem.results[island].responses)
     sleeping.held += ContactPair::energies(response).total();
   for (const BoltResult& bolt : problem.results[island].bolts) sleeping.held += bolt.response.end.stored;
   for (const int block : sleeping.blocks) {
-    BlockState& state = run.state.states[at(block)];
-    run.state.ledger.integrator_took(run.blocks()[at(block)].kinetic_energy(state));
-    state.velocity.setZero();
-    if (!run.state.accelerations.empty()) run.state.accelerations[at(block)].setZero();
+    BlockState& still = state.states[at(block)];
+    state.ledger.integrator_took(system.blocks()[at(block)].kinetic_energy(still));
+    still.velocity.setZero();
+    if (!state.accelerations.empty()) state.accelerations[at(block)].setZero();
   }
-  run.state.sleep.islands.push_back(std::move(sleeping));
-  ++run.state.log.counts.islands_put_to_sleep;
+  state.sleep.islands.push_back(std::move(sleeping));
+  ++state.log.counts.islands_put_to_sleep;
 }
 
 }  // namespace
@@ -83,57 +93,56 @@ void hold_sleepers(BlockSystem& system, const Sleep& sleep) {
   for (const SleepingIsland& island : sleep.islands) system.hold(island.blocks);
 }
 
-void wake_for_loads(const RunContext& run, double step) {
-  if (run.state.sleep.islands.empty()) return;
-  const double start = run.state.time();
-  const double end = run.state.clock.time_after(step);
-  const GravityHistory& gravity = run.settings().gravity_history;
+void wake_for_loads(BlockSystem& system, RunState& state, double step) {
+  if (state.sleep.islands.empty()) return;
+  const double start = state.time();
+  const double end = state.clock.time_after(step);
+  const GravityHistory& gravity = system.settings().gravity_history;
   const bool all = !gravity.empty() && gravity.changes_between(start, end);
-  wake_if(run, [&](const SleepingIsland& island) {
+  wake_if(system, state, [&](const SleepingIsland& island) {
     return all || std::any_of(island.blocks.begin(), island.blocks.end(), [&](int block) {
-             return run.blocks()[at(block)].loads_change_between(start, end);
+             return system.blocks()[at(block)].loads_change_between(start, end);
            });
   });
 }
 
-bool wake_touched(const RunContext& run, const std::vector<ContactPair>& pairs) {
-  if (run.state.sleep.islands.empty()) return false;
+bool wake_touched(BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs) {
+  if (state.sleep.islands.empty()) return false;
   std::set<int> touched;
-  const std::vector<bool>& moving = run.system.moving();
+  const std::vector<bool>& moving = system.moving();
   for (const ContactPair& pair : pairs) {
     if (moving[at(pair.a())] != moving[at(pair.b())])
       touched.insert(moving[at(pair.a())] ? pair.b() : pair.a());
   }
-  return wake_if(run, [&](const SleepingIsland& island) {
+  return wake_if(system, state, [&](const SleepingIsland& island) {
     return std::any_of(island.blocks.begin(), island.blocks.end(),
                        [&](int block) { return touched.count(block) > 0; });
   });
 }
 
-void wake_all(const RunContext& run) {
-  wake_if(run, [](const SleepingIsland&) { return true; });
+void wake_all(BlockSystem& system, RunState& state) {
+  wake_if(system, state, [](const SleepingIsland&) { return true; });
 }
 
-void note_rest(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
-  const RestSettings& settings = run.settings().rest;
-  Sleep& sleep = run.state.sleep;
-  if (!settings.sleeps || scheme.is_static() || !dissipates(run.settings())) return;
-  run.state.log.counts.sleeping_block_steps += static_cast<std::uint64_t>(sleep.sleeping_blocks());
-  std::vector<Eigen::MatrixX3d> velocities(run.blocks().size());
-  for (const Island& island : problem.islands) {
-    for (const int block : island.bodies) {
-      BlockRest& rest = sleep.rests[at(block)];
-      Eigen::MatrixX3d motion = problem.bodies[at(block)].motion();
-      const Eigen::MatrixX3d steady = steady_part(motion, rest);
-      rest.path += run.contacts.finder().motion_bound(block, steady);
-      rest.motion = std::move(motion);
-      velocities[at(block)] = steady / scheme.step;
-    }
-  }
-  sleep.window_time += scheme.step;
+void note_rest(BlockSystem& system, RunState& state, const ContactFinder& finder,
+               const StepProblem& problem) {
+  const RestSettings& settings = system.settings().rest;
+  Sleep& sleep = state.sleep;
+  if (!settings.sleeps || problem.scheme.is_static() || !dissipates(system.settings())) return;
+  state.log.counts.sleeping_block_steps += static_cast<std::uint64_t>(sleep.sleeping_blocks());
+  std::vector<Eigen::MatrixX3d> velocities = note_paths(finder, problem, sleep);
+  sleep.window_time += problem.scheme.step;
   if (++sleep.window_steps < settings.window) return;
-  for (std::size_t k = 0; k < problem.islands.size(); ++k)
-    if (rests(run, problem, problem.islands[k], velocities)) put_to_sleep(run, problem, k);
+  const auto rests = [&](int block) {
+    const BlockRest& rest = sleep.rests[at(block)];
+    return fades(system.settings(), rest, finder.checked_motion(block)) &&
+           unbalanced_share(sleep, problem.bodies[at(block)], rest, velocities[at(block)]) <=
+               settings.unbalanced_share;
+  };
+  for (std::size_t k = 0; k < problem.islands.size(); ++k) {
+    const std::vector<int>& blocks = problem.islands[k].bodies;
+    if (std::all_of(blocks.begin(), blocks.end(), rests)) put_to_sleep(system, state, problem, k);
+  }
   for (const Island& island : problem.islands) {
     for (const int block : island.bodies) {
       BlockRest& rest = sleep.rests[at(block)];
@@ -143,7 +152,7 @@ void note_rest(const RunContext& run, const TimeScheme& scheme, const StepProble
   }
   sleep.window_steps = 0;
   sleep.window_time = 0.0;
-  hold_sleepers(run.system, sleep);
+  hold_sleepers(system, sleep);
 }
 
 }  // namespace ashlar

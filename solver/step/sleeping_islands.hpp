@@ -11,24 +11,24 @@
 // a block that moves has come within the distance at which contacts are found (notes/sleeping_islands.md).
 #pragma once
 
-#include "solver/step/run_context.hpp"
+#include "solver/contact/contact_finder.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
 
 /// Wakes islands that a step of this length may load, or move by their supports. @param step s
-void wake_for_loads(const RunContext& run, double step);
+void wake_for_loads(BlockSystem& system, RunState& state, double step);
 
 /// Wakes islands that have a contact or a tie with a moving block. @return true if any were woken: contacts have to
 /// be detected again
-[[nodiscard]] bool wake_touched(const RunContext& run, const std::vector<ContactPair>& pairs);
+[[nodiscard]] bool wake_touched(BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs);
 
 /// Wakes all islands; blocks start from rest.
-void wake_all(const RunContext& run);
+void wake_all(BlockSystem& system, RunState& state);
 
-/// To be called after an accepted step whose motion and contacts have been stored. Records the motion of blocks and,
-/// at the end of a window, puts resting islands to sleep. Their kinetic energy is booked as the integrator's.
-void note_rest(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
+/// Records the motion of blocks in an accepted step and, at the end of a window, puts resting islands to sleep. Their
+/// kinetic energy is booked as the integrator's. @param state at the end of the step. @param finder of its contacts
+void note_rest(BlockSystem& system, RunState& state, const ContactFinder& finder, const StepProblem& problem);
 
 /// Holds the blocks that a state lists as sleeping. To be called when the present state was replaced.
 void hold_sleepers(BlockSystem& system, const Sleep& sleep);

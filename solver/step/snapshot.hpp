@@ -6,7 +6,7 @@
 #include <map>
 
 #include "mechanics/block/incremental_block.hpp"
-#include "solver/step/run_context.hpp"
+#include "solver/step/step_caches.hpp"
 
 namespace ashlar {
 
@@ -21,13 +21,11 @@ struct SimulationSnapshot {
 };
 
 /// Work done and skipped by a run so far.
-[[nodiscard]] SimulationCounts counts_of(const RunState& state, const StepContacts& contacts,
-                                         const FactorCache& factors);
+[[nodiscard]] SimulationCounts counts_of(const RunState& state, const StepCaches& caches);
 
 [[nodiscard]] SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state,
-                                             const StepContacts& contacts, const FactorCache& factors);
-[[nodiscard]] SimulationSnapshot snapshot_of(const RunContext& run);
+                                             const StepCaches& caches);
 /// @throws std::invalid_argument if the snapshot was taken of other blocks: nothing has changed then
-void restore(const RunContext& run, const SimulationSnapshot& snapshot);
+void restore(BlockSystem& system, RunState& state, StepCaches& caches, const SimulationSnapshot& snapshot);
 
 }  // namespace ashlar

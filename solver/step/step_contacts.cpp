@@ -235,8 +235,9 @@ const Retractions& StepContacts::retractions(const RunState& state, const std::v
 void StepContacts::remove_internal_edges_of(const BlockSystem& system, const RunState& state,
                                             std::vector<FoundContacts>& found) {
   const Retractions& ways = retractions(state, system.moving(), found);
-  const auto stands = standing_retractions(system, state, found);
   const BlockCompression given = compression_of(system, state);
+  const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
+  const auto stands = [&](const Retraction& way) { return retractions_->stands(way, found, placed, given); };
   for (FoundContacts& pair : found) {
     if (pair.kept != nullptr) continue;
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
@@ -369,8 +370,9 @@ std::vector<PassingBlocks> StepContacts::check_motion(const BlockSystem& system,
   std::vector<PassingBlocks> passing = finder_.check_motion(state.states, after, found, state.pairs);
   if (passing.empty()) return passing;
   const Retractions& retractions = this->retractions(state, system.moving(), found);
-  const auto stands = standing_retractions(system, state, found);
   const BlockCompression given = compression_of(system, state);
+  const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
+  const auto stands = [&](const Retraction& way) { return retractions_->stands(way, found, placed, given); };
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
@@ -386,14 +388,6 @@ BlockCompression StepContacts::compression_of(const BlockSystem& system, const R
     const BlockModel& model = system.blocks()[at(block)];
     if (!system.moving()[at(block)] || model.incremental() != nullptr) return 0.0;
     return compression_along(model, state.states[at(block)], direction);
-  };
-}
-
-std::function<bool(const Retraction&)> StepContacts::standing_retractions(
-    const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const {
-  return [this, given = compression_of(system, state), &found](const Retraction& way) {
-    const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
-    return retractions_->stands(way, found, placed, given);
   };
 }
 

@@ -3,7 +3,6 @@
 // with_passing(), and not changed afterwards.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -72,9 +71,6 @@ class StepContacts {
                                                    const SurfaceContinuation& covered) const;
   /// Elastic compression of blocks at the present state.
   [[nodiscard]] static BlockCompression compression_of(const BlockSystem& system, const RunState& state);
-  /// Selects the retractions that are valid for some contacts. All arguments must outlive the result.
-  [[nodiscard]] std::function<bool(const Retraction&)> standing_retractions(
-      const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const;
 
   ContactObserver observer_;
   ContactFinder finder_;

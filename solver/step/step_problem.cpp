@@ -94,6 +94,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
 
 void pose_step(const BlockSystem& system, const RunState& state, const TimeScheme& scheme,
                StepProblem& problem) {
+  problem.scheme = scheme;
   problem.bolts = step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
   problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
   validate(problem.islands, system.moving(), problem.pairs);

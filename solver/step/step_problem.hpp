@@ -18,7 +18,9 @@ namespace ashlar {
 
 /// A trial step. Pairs whose rows were updated replace the original ones until the step is tried again.
 struct StepProblem {
+  std::vector<FoundContacts> found;  ///< contacts that the pairs were made from
   std::vector<ContactPair> pairs;
+  TimeScheme scheme;  ///< of the last trial
   std::vector<StepBolt> bolts;
   std::vector<Island> islands;
   std::vector<BodyStep> bodies;

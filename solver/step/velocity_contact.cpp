@@ -67,25 +67,44 @@ bool is_free(const BlockSystem& system, const Island& island, const std::vector<
 
 namespace {
 
+/// A step whose blocks have been moved.
+struct EndedStep {
+  const BlockSystem& system;
+  RunState& state;  ///< at its end
+  const StepProblem& problem;
+  std::vector<BodyStep> bodies;  ///< by block: models, states and zero changes
+};
+
+EndedStep ended_step(const BlockSystem& system, RunState& state, const StepProblem& problem) {
+  EndedStep ended{system, state, problem, std::vector<BodyStep>(system.blocks().size())};
+  for (std::size_t k = 0; k < ended.bodies.size(); ++k) {
+    ended.bodies[k].model = &system.blocks()[k];
+    ended.bodies[k].state = &state.states[k];
+    ended.bodies[k].change = Eigen::VectorXd::Zero(system.blocks()[k].unknowns());
+    ended.bodies[k].prescribed = problem.bodies[k].prescribed;
+  }
+  return ended;
+}
+
 /// The impulses of one island.
 class IslandImpulses {
  public:
-  /// @param of_step the step that has ended. @param bodies models, states and zero changes
-  IslandImpulses(const RunContext& run, const TimeScheme& of_step, const StepProblem& step_problem,
-                 std::size_t island, std::vector<BodyStep>& bodies)
-      : run_(run),
-        step_(of_step.step),
-        island_(step_problem.islands[island]),
-        pairs_(step_problem.pairs),
-        result_(step_problem.results[island]),
-        bodies_(bodies),
-        scheme_(impulsive(of_step.step)),
-        problem_(island_, bodies_, pairs_, scheme_, run.settings(),
-                 solver_of(island_, bodies_, pairs_, SystemRole::stop, run.factors.islands)),
-        velocities_(bodies.size()) {
+  IslandImpulses(EndedStep& ended, std::size_t island, IslandSolvers& solvers)
+      : system_(ended.system),
+        state_(ended.state),
+        step_(ended.problem.scheme.step),
+        island_(ended.problem.islands[island]),
+        pairs_(ended.problem.pairs),
+        result_(ended.problem.results[island]),
+        bodies_(ended.bodies),
+        scheme_(impulsive(step_)),
+        problem_(island_, bodies_, pairs_, scheme_, system_.settings(),
+                 solver_of(island_, bodies_, pairs_, SystemRole::stop, solvers)),
+        velocities_(bodies_.size()) {
+    const TimeScheme& of_step = ended.problem.scheme;
     act_at_end(island_, pairs_, result_, bodies_, problem_);
     for (const int index : island_.pairs) let_go_.emplace_back(pairs_[at(index)].points().size(), false);
-    set_velocities(1.0 / of_step.end_velocity.change - 0.5 * of_step.step);
+    set_velocities(1.0 / of_step.end_velocity.change - 0.5 * step_);
   }
 
   /// @return true if there are any impulses: a system that cannot be factorised has none
@@ -106,8 +125,8 @@ class IslandImpulses {
 
   /// Changes velocities and books their energy loss. @param stopped of the island's pairs is written
   void apply(std::vector<StoppedPair>& stopped) {
-    const std::vector<BlockModel>& blocks = run_.blocks();
-    std::vector<BlockState>& states = run_.state.states;
+    const std::vector<BlockModel>& blocks = system_.blocks();
+    std::vector<BlockState>& states = state_.states;
     const Vector3 momentum = angular_momentum_of(blocks, island_.bodies, states);
     double lost = 0.0;
     for (const int k : island_.bodies) {
@@ -121,17 +140,17 @@ class IslandImpulses {
       velocities_[at(k)] =
           step_ * blocks[at(k)].space().restrict(states[at(k)].velocity) - 0.5 * bodies_[at(k)].change;
     for (std::size_t n = 0; n < island_.pairs.size(); ++n) lost -= record(n, stopped[at(island_.pairs[n])]);
-    if (is_free(run_.system, island_, pairs_)) {
+    if (is_free(system_, island_, pairs_)) {
       // Opposite impulses act at places that differ by the gap.
       const Vector3 missing = momentum - angular_momentum_of(blocks, island_.bodies, states);
       const double own = std::max(0.0, lost);
-      IslandFunds funds(run_.state.pairs, {contacts_of(island_, pairs_)});
+      IslandFunds funds(state_.pairs, {contacts_of(island_, pairs_)});
       const double gain = add_spin(blocks, island_.bodies, missing, own + funds.available(0), states);
       funds.use(0, std::max(0.0, gain - own));
-      funds.spend_from(run_.state.pairs);
+      funds.spend_from(state_.pairs);
       lost -= gain;
     }
-    run_.state.ledger.integrator_took(lost);
+    state_.ledger.integrator_took(lost);
   }
 
  private:
@@ -146,19 +165,19 @@ class IslandImpulses {
   /// u times the step. @param shift beta/gamma dt - dt/2, 0 but with generalized-alpha
   void set_velocities(double shift) {
     for (const int k : island_.bodies) {
-      Eigen::MatrixX3d velocity = run_.state.states[at(k)].velocity;
-      if (!run_.state.accelerations.empty()) velocity -= shift * run_.state.accelerations[at(k)];
-      velocities_[at(k)] = step_ * run_.blocks()[at(k)].space().restrict(velocity);
+      Eigen::MatrixX3d velocity = state_.states[at(k)].velocity;
+      if (!state_.accelerations.empty()) velocity -= shift * state_.accelerations[at(k)];
+      velocities_[at(k)] = step_ * system_.blocks()[at(k)].space().restrict(velocity);
     }
   }
 
   [[nodiscard]] double inertia(int block) const {
-    return run_.blocks()[at(block)].material().density * scheme_.inertia;
+    return system_.blocks()[at(block)].material().density * scheme_.inertia;
   }
 
   /// Impulses of each pair at the present velocities.
   [[nodiscard]] std::vector<PairResponse> impulses() const {
-    const MultiplierSettings& settings = run_.settings().multipliers;
+    const MultiplierSettings& settings = system_.settings().multipliers;
     std::vector<PairResponse> responses;
     for (std::size_t n = 0; n < island_.pairs.size(); ++n) {
       const ContactPair& pair = problem_.pair(n);
@@ -178,11 +197,12 @@ class IslandImpulses {
       stopped.forces.push_back(in_frame(points[k], out_of_frame(pair.points()[k], found_[n].means[k].force)));
     stopped.work = pair.work(found_[n], velocities_[at(pair.a())], velocities_[at(pair.b())]);
     const double of_supports = pair.prescribed_work(found_[n]);
-    run_.state.ledger.loads_did(-of_supports);
+    state_.ledger.loads_did(-of_supports);
     return of_supports;
   }
 
-  const RunContext& run_;
+  const BlockSystem& system_;
+  RunState& state_;
   double step_;  ///< s
   const Island& island_;
   const std::vector<ContactPair>& pairs_;
@@ -197,18 +217,12 @@ class IslandImpulses {
 
 }  // namespace
 
-std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeScheme& scheme,
+std::vector<StoppedPair> stop_at_contacts(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
                                           const StepProblem& problem) {
-  const Stopwatch watch(run.state.log.seconds.solve);
+  const Stopwatch watch(state.log.seconds.solve);
   std::vector<StoppedPair> stopped(problem.pairs.size());
-  if (!run.settings().augmented || scheme.is_static()) return stopped;
-  std::vector<BodyStep> bodies(run.blocks().size());
-  for (std::size_t k = 0; k < run.blocks().size(); ++k) {
-    bodies[k].model = &run.blocks()[k];
-    bodies[k].state = &run.state.states[k];
-    bodies[k].change = Eigen::VectorXd::Zero(run.blocks()[k].unknowns());
-    bodies[k].prescribed = problem.bodies[k].prescribed;
-  }
+  if (!system.settings().augmented || problem.scheme.is_static()) return stopped;
+  EndedStep ended = ended_step(system, state, problem);
   for (std::size_t n = 0; n < problem.islands.size(); ++n) {
     const Island& island = problem.islands[n];
     const IslandResult& result = problem.results[n];
@@ -216,7 +230,7 @@ std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeSchem
     for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
       pushes = problem.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
     if (!pushes) continue;
-    IslandImpulses stop(run, scheme, problem, n, bodies);
+    IslandImpulses stop(ended, n, solvers);
     if (stop.find()) stop.apply(stopped);
   }
   return stopped;

@@ -26,7 +26,6 @@
 
 #include <vector>
 
-#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {
@@ -40,8 +39,8 @@ struct StoppedPair {
 
 /// Stops approaching points at the end of a step whose blocks have been moved. Changes velocities and books their
 /// energy loss. @return by pair of the problem
-[[nodiscard]] std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeScheme& scheme,
-                                                        const StepProblem& problem);
+[[nodiscard]] std::vector<StoppedPair> stop_at_contacts(const BlockSystem& system, RunState& state,
+                                                        IslandSolvers& solvers, const StepProblem& problem);
 
 /// True if only its own blocks, gravity and loads act on an island.
 [[nodiscard]] bool is_free(const BlockSystem& system, const Island& island,

@@ -1,5 +1,6 @@
 """For notebooks: texts, tables with units, pages and pictures."""
 import shutil
+import sys
 
 import pytest
 
@@ -58,10 +59,58 @@ def test_blocks_have_places():
     assert "centroid" not in ashlar.blocks(scene(), places=False)["blocks"][1]
 
 
+def test_a_scene_shows_itself():
+    shown = ashlar.Scene.from_dict(dict(CUBE, title="Stone & floor"))._repr_html_()
+    table = shown[:shown.index("<iframe")]
+    assert "<b>Stone &amp; floor</b>" in table and "dynamic, 0.5 s in steps of 0.001 s" in table
+    # A cube of 1 m^3 and 2000 kg/m^3, of order 1.
+    assert "1 free, 1 fixed; order 1; 2000 kg" in table and "stone: 2000 kg/m\N{SUPERSCRIPT THREE}" in table
+
+
+def test_a_scene_shows_its_blocks_as_placed():
+    """Without the equilibrium of its start, which may take long."""
+    found = scene(initial_state="static")
+    top = [[0.5, 0.5, 1]]
+    # Its weight shortens the cube by rho g h^2 / (2 E) = 1e-5 m, one of order 1 by its mean strain: as much.
+    assert found.simulation().blocks["cube"].displacements(top)[0, 2] == pytest.approx(-1e-5, rel=0.01)
+    assert found._placed().blocks["cube"].displacements(top)[0, 2] == 0
+    assert "<iframe" in found._repr_html_() and found.show(height=200).height == 200
+
+
+def test_a_run_has_a_progress_bar(capsys):
+    pytest.importorskip("tqdm")
+    sim = scene().simulation()
+    assert sim.run(until=0.1) == "running"
+    assert capsys.readouterr().err == "", "none outside a notebook"
+    assert sim.run(until=0.2, progress=True) == "running"
+    assert "0.2 of 0.2 s" in capsys.readouterr().err
+    statics = ashlar.Scene.from_dict({**CUBE, "analysis": {"type": "static"}}).simulation()
+    statics.run(progress=True)
+    assert f"{statics.steps} steps" in capsys.readouterr().err
+
+
+def test_a_progress_bar_needs_tqdm(monkeypatch):
+    for name in ("tqdm", "tqdm.std", "tqdm.notebook"):
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(ImportError):
+        scene().simulation().run(until=0.01, progress=True)
+
+
 def test_a_notebook_shows_the_page():
     shown = scene().simulation().show(height=300)
     assert shown.html.startswith("<!DOCTYPE html>") and "300px" in shown._repr_html_()
     assert "<script" not in shown._repr_html_(), "the page is text of an attribute"
+
+
+def test_any_state_has_a_page(tmp_path):
+    """Frames are due every few steps only."""
+    sim = scene().simulation()
+    for _ in range(3):
+        sim.step()
+        sim.write(tmp_path / "out")
+        assert (tmp_path / "out" / "blocks.pvd").read_text().count("<DataSet") == 1
+        assert sim.summary["frames"] == 0, "frames of a folder that the simulation records into"
+    assert sim.show().html.startswith("<!DOCTYPE html>")
 
 
 @pytest.mark.skipif(not any(map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), reason="no browser")

@@ -1,7 +1,6 @@
 // Scenes with contacts and measurements for verification cases.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "apps/program/verify/verification.hpp"
 #include "apps/program/verify/verification_blocks.hpp"
+#include "solver/block_pair.hpp"
 
 namespace ashlar {
 
@@ -38,7 +38,7 @@ class ContactScene {
  private:
   std::vector<BlockModel> blocks_;
   std::vector<InitialMotion> motions_;
-  std::vector<std::array<int, 2>> ties_;
+  std::vector<PairKey> ties_;
   bool all_tied_ = false;
   Placement placement_;
 };

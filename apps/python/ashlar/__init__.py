@@ -19,6 +19,7 @@ import tempfile as _tempfile
 import numpy as _numpy
 
 from . import _core
+from . import _notebook
 from ._history import History
 from ._pictures import Page, page, picture
 from ._toml import to_toml as _to_toml
@@ -96,6 +97,28 @@ class Scene:
         """
         return Simulation(self, threads, resume)
 
+    def picture(self, path=None, **options):
+        """Draws the blocks as placed: see ashlar.picture. Returns the PNG as bytes, or the path it is written to."""
+        return self._placed().picture(path, **options)
+
+    def show(self, height=640):
+        """The page of the blocks as placed, which a notebook shows: see ashlar.page."""
+        return self._placed().show(height)
+
+    def _placed(self):
+        """A simulation at its start, without the equilibrium that initial_state asks for."""
+        if self.to_dict()["analysis"]["initial_state"] == "as-placed":
+            return self.simulation()
+        return Scene(self._text, self._file, [*self._overrides, "analysis.initial_state=as-placed"]).simulation()
+
+    def _repr_html_(self):
+        try:
+            simulation = self._placed()
+        except (RuntimeError, ValueError):
+            simulation = None
+        table = _notebook.scene_table(self.to_dict(), simulation, self.warnings)
+        return table if simulation is None else table + simulation.show()._repr_html_()
+
     def __getstate__(self):
         return self._text, self._file, self._overrides
 
@@ -144,19 +167,22 @@ class Simulation:
         """
         return self._core.step()
 
-    def run(self, until=None, callback=None):
+    def run(self, until=None, callback=None, progress=None):
         """Steps until a time (s), or to the end. callback(simulation) is called after each step; the run stops if it
-        returns False. Returns the status. Raises RuntimeError like step."""
+        returns False. progress: True shows a bar (tqdm), False none; None: one in a notebook where tqdm is there.
+        Returns the status. Raises RuntimeError like step, ImportError if a bar is asked for without tqdm."""
         if until is not None and until != until:
             raise ValueError(f"until is no time ({until}), s are needed")
         if self.status == "failed":
             self._core.step()
-        while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
-            self._core.step()
-            goes_on = callback(self) if callback is not None else None
-            # numpy's False is not the same object as Python's.
-            if goes_on is not None and not goes_on:
-                break
+        with _notebook.progress_bar(self, self._scene.to_dict, until, progress) as bar:
+            while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
+                self._core.step()
+                bar.update()
+                goes_on = callback(self) if callback is not None else None
+                # numpy's False is not the same object as Python's.
+                if goes_on is not None and not goes_on:
+                    break
         return self.status
 
     @property
@@ -232,7 +258,6 @@ class Simulation:
     def write(self, folder):
         """Writes the history, the present state and a summary as a result folder; replaces an existing one."""
         self._core.write(str(folder))
-
 
     def picture(self, path=None, **options):
         """Draws the present state: see ashlar.picture. Returns the PNG as bytes, or the path it is written to."""

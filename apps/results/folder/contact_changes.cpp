@@ -15,7 +15,7 @@ void ContactChanges::note(const Simulation& simulation) {
   ++iteration_;
   for (auto& [blocks, pair] : pairs_)
     std::erase_if(pair.changes, [this](int change) { return change <= iteration_ - window; });
-  std::map<std::array<int, 2>, std::array<int, 3>> now;
+  std::map<PairKey, std::array<int, 3>> now;
   for (const PairRecord& record : simulation.contacts()) {
     std::array<int, 3>& states = now[{record.a, record.b}];
     for (const PointResponse& point : record.responses) ++states[static_cast<std::size_t>(point.state)];

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/block_pair.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {
@@ -17,12 +18,12 @@ class ContactChanges {
   /// Number of last iterations examined.
   static constexpr int window = 50;
 
-  /// To be called after each iteration of a static analysis.
+  /// Adds the last iteration of a static analysis.
   void note(const Simulation& simulation);
   void forget() { *this = ContactChanges(); }
 
   struct Alternating {
-    std::array<int, 2> blocks;
+    PairKey blocks;
     int changes;     ///< iterations in which it had other numbers of open, locked and sliding points
     int iterations;  ///< iterations examined, at most `window`
   };
@@ -41,7 +42,7 @@ class ContactChanges {
     std::array<int, 3> states = {};  ///< points by ContactState, in the last iteration
     std::vector<int> changes;        ///< iterations of the window with other numbers than before
   };
-  std::map<std::array<int, 2>, Pair> pairs_;
+  std::map<PairKey, Pair> pairs_;
   int iteration_ = 0;
 };
 

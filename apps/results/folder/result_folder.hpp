@@ -73,10 +73,10 @@ class ResultFolder {
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                const ResultFolderState& state);
 
-  /// To be called after every accepted step. Data that cannot be written are not in state() either.
+  /// Adds the last accepted step. Data that cannot be written are not in state() either.
   /// @throws std::runtime_error also if a table or the folder of frames no longer exists, or was changed by others
   void add_step(const Simulation& simulation);
-  /// Starts another stage of a staged analysis. To be called after add_end() for the last one.
+  /// Starts another stage of a staged analysis. The frame of its start is that of add_end() for the last one.
   /// @param simulation at the start of the stage. @param elapsed s, of all stages before
   void begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement);
   /// Adds row and frame of the end of a run or stage, whether they are due or not. A run continued from an earlier

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "apps/scene/model/scene.hpp"
+#include "solver/block_pair.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {
@@ -43,7 +44,7 @@ struct DriftLevels {
 /// The common faces of the blocks of some joints.
 struct JointPolygons {
   struct Polygon {
-    std::array<int, 2> blocks;
+    PairKey blocks;
     Vector3 normal;                ///< unit, out of the first block
     std::vector<Vector3> corners;  ///< m, reference coordinates of both
   };

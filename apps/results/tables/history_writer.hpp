@@ -31,7 +31,7 @@ class HistoryWriter {
 
   /// @throws std::runtime_error if the file no longer exists, or was changed by others
   void check_in_place() const { file_.check_in_place(); }
-  /// Waits until all rows are on the disk; to be called before a checkpoint that relies on them.
+  /// Waits until all rows are on the disk, as a checkpoint relies on them.
   void sync() { file_.sync(); }
 
  private:

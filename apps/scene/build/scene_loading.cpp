@@ -49,7 +49,7 @@ std::vector<KnownOverlap> check_overlaps(const ExpandedScene& whole,
                                          const std::vector<std::optional<Polyhedron>>& solids,
                                          Diagnostics& diagnostics) {
   std::optional<std::vector<bool>> looked_at;
-  std::map<std::array<int, 2>, KnownOverlap> known;
+  std::map<PairKey, KnownOverlap> known;
   for_each_stage(whole, [&](const ExpandedScene& stage) {
     if (looked_at == stage.absent) return;
     looked_at = stage.absent;

@@ -3,13 +3,13 @@
 // (solver/notes/known_overlaps.md).
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/expanded_scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
+#include "solver/block_pair.hpp"
 
 namespace ashlar {
 
@@ -37,9 +37,9 @@ struct OverlapDepth {
 
 /// Two blocks with an initial overlap that is allowed.
 struct KnownOverlap {
-  std::array<int, 2> blocks;  ///< by scene.block, the lower number first
-  OverlapDepth overlap;       ///< > 0
-  bool rounding;              ///< within rounding error: allowed in any case
+  PairKey blocks;        ///< by scene.block, the lower number first
+  OverlapDepth overlap;  ///< > 0
+  bool rounding;         ///< within rounding error: allowed in any case
 };
 
 /// Reports every pair of blocks whose overlap exceeds the allowed one, at the second block. Allowed are rounding

@@ -16,7 +16,8 @@ void check_references(const Scene& scene, Diagnostics& diagnostics);
 /// The same. @param of_blocks receives unknown names of blocks in [[joint]] and [[measure]]
 void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks);
 
-/// To be called before the cuts: names of cuts are unique, joints name existing cuts, and names of blocks are unique.
+/// Names of cuts are unique, joints name existing cuts, and names of blocks are unique.
+/// @param scene as read: its cuts have not been made
 void check_cuts(const Scene& scene, Diagnostics& diagnostics);
 
 /// Points of measures, supports and loads are points of their block, and planes contain a face of it. Points are

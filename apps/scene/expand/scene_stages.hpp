@@ -45,7 +45,7 @@ void for_each_stage(const ExpandedScene& whole, const std::function<void(const E
 /// Reports names given twice; patterns that match no block; removal of absent blocks, addition of present ones;
 /// supports and loads of fixed blocks; unknown materials; joints that tie; keys that apply to the whole run only
 /// (formulation, initial_state), and searches for a factor.
-/// To be called after the cuts.
+/// @param scene whose cuts have been made (cut_scene)
 void check_stages(const Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -171,7 +171,7 @@ ThreemfModel::Use ThreemfModel::use_of(const char* what, const XmlAttributes& at
   return {found->second, transformation_of(attributes)};
 }
 
-ShapeLayout ThreemfModel::take_layout(std::size_t bytes) {
+ShapeLayout ThreemfModel::layout(std::size_t bytes) && {
   ShapeLayout layout(ShapeLayout::SameName::numbered, layout_limits(bytes));
   std::vector<std::size_t> shapes;
   for (Object& object : objects_) shapes.push_back(layout.add(std::move(object.mesh)));

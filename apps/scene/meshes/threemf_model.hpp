@@ -18,8 +18,8 @@ class ThreemfModel : public XmlHandler {
   void start(std::string_view name, const XmlAttributes& attributes) override;
   void end() override;
 
-  /// To be called once, after the whole part. @param bytes of it
-  [[nodiscard]] ShapeLayout take_layout(std::size_t bytes);
+  /// The layout of a part that was read; uses this up. @param bytes of the part
+  [[nodiscard]] ShapeLayout layout(std::size_t bytes) &&;
 
  private:
   /// Elements that are read; all others are ignored with their content.

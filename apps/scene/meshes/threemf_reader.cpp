@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "apps/scene/meshes/threemf_model.hpp"
 #include "apps/scene/meshes/zip_archive.hpp"
@@ -37,14 +38,14 @@ std::size_t read_part(const ZipArchive& archive, std::string_view name, std::siz
   const ZipArchive::Entry* entry = archive.find(name);
   if (entry == nullptr)
     throw MeshFileError(fmt::format("no {} in the package, which is needed", printable(name)), 0, 0);
-  XmlReader reader(handler);
   std::size_t bytes = 0;
   try {
-    archive.read(*entry, most, [&](std::string_view piece) {
-      bytes += piece.size();
-      reader.take(piece);
+    read_xml(handler, [&](const XmlSink& take) {
+      archive.read(*entry, most, [&](std::string_view piece) {
+        bytes += piece.size();
+        take(piece);
+      });
     });
-    reader.finish();
   } catch (const MeshFileError& error) {
     throw MeshFileError(fmt::format("{}: {}", printable(name), error.what()), error.line(), error.column());
   }
@@ -68,15 +69,13 @@ ShapeLayout read_3mf(std::string_view bytes) {
     throw MeshFileError("package has no 3-D model, which 3MF files have", 0, 0);
   ThreemfModel model;
   const std::size_t size = read_part(archive, relationships.model_part(), most_inflated(bytes.size()), model);
-  return model.take_layout(size);
+  return std::move(model).layout(size);
 }
 
 ShapeLayout read_3mf_model(std::string_view xml) {
   ThreemfModel model;
-  XmlReader reader(model);
-  reader.take(xml);
-  reader.finish();
-  return model.take_layout(xml.size());
+  read_xml(model, [xml](const XmlSink& take) { take(xml); });
+  return std::move(model).layout(xml.size());
 }
 
 }  // namespace ashlar

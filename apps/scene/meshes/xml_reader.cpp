@@ -8,46 +8,97 @@
 #include <new>
 
 namespace ashlar {
+namespace {
 
-struct XmlReader::State {
-  explicit State(XmlHandler& to) : parser(XML_ParserCreate(nullptr)), handler(to) {
-    if (parser == nullptr) throw std::bad_alloc();
-  }
-  ~State() { XML_ParserFree(parser); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+/// Pieces of one document on their way to expat.
+class XmlReader {
+ public:
+  explicit XmlReader(XmlHandler& to);
+  ~XmlReader() { XML_ParserFree(parser_); }
+  XmlReader(const XmlReader&) = delete;
+  XmlReader& operator=(const XmlReader&) = delete;
+
+  void take(std::string_view piece);
+  void finish() { check(XML_Parse(parser_, "", 0, XML_TRUE) == XML_STATUS_OK); }
+
+ private:
+  void check(bool good);
 
   [[nodiscard]] MeshFileError error(const std::string& what) const {
     const auto number = [](XML_Size value) { return static_cast<int>(std::min<XML_Size>(value, 1U << 30U)); };
-    return {what, number(XML_GetCurrentLineNumber(parser)), number(XML_GetCurrentColumnNumber(parser)) + 1};
+    return {what, number(XML_GetCurrentLineNumber(parser_)), number(XML_GetCurrentColumnNumber(parser_)) + 1};
   }
 
   /// Exceptions must not pass through expat.
   template <class Action>
   void guarded(Action action) {
-    if (failure) return;
+    if (failure_) return;
     try {
       action();
     } catch (const MeshFileError& fault) {
-      failure = std::make_exception_ptr(error(fault.what()));
+      failure_ = std::make_exception_ptr(error(fault.what()));
     } catch (...) {
-      failure = std::current_exception();
+      failure_ = std::current_exception();
     }
-    if (failure) XML_StopParser(parser, XML_FALSE);
+    if (failure_) XML_StopParser(parser_, XML_FALSE);
   }
 
-  XML_Parser parser;
-  XmlHandler& handler;
-  std::size_t levels = 0;
-  std::size_t taken = 0;
-  std::exception_ptr failure;
+  XML_Parser parser_;
+  XmlHandler& handler_;
+  std::size_t levels_ = 0;
+  std::size_t taken_ = 0;
+  std::exception_ptr failure_;
 };
 
-namespace {
+XmlReader& reader_of(void* data) {
+  return *static_cast<XmlReader*>(data);
+}
 
-template <class State>
-State& state_of(void* data) {
-  return *static_cast<State*>(data);
+XmlReader::XmlReader(XmlHandler& to) : parser_(XML_ParserCreate(nullptr)), handler_(to) {
+  if (parser_ == nullptr) throw std::bad_alloc();
+  XML_SetUserData(parser_, this);
+  XML_SetStartElementHandler(parser_, [](void* data, const char* name, const char** attributes) {
+    XmlReader& reader = reader_of(data);
+    reader.guarded([&] {
+      if (++reader.levels_ > most_xml_levels)
+        throw MeshFileError(
+            fmt::format("elements are nested more than {} deep, which is what is allowed", most_xml_levels),
+            0, 0);
+      reader.handler_.start(name, XmlAttributes(attributes));
+    });
+  });
+  XML_SetEndElementHandler(parser_, [](void* data, const char*) {
+    XmlReader& reader = reader_of(data);
+    reader.guarded([&] {
+      --reader.levels_;
+      reader.handler_.end();
+    });
+  });
+  XML_SetStartDoctypeDeclHandler(parser_, [](void* data, const char*, const char*, const char*, int) {
+    reader_of(data).guarded(
+        [] { throw MeshFileError("document type declaration, allowed are files without one", 0, 0); });
+  });
+}
+
+void XmlReader::check(bool good) {
+  if (failure_) std::rethrow_exception(failure_);
+  if (good) return;
+  const XML_Error code = XML_GetErrorCode(parser_);
+  if (code == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
+  throw error(fmt::format("no well-formed XML ({})", XML_ErrorString(code)));
+}
+
+void XmlReader::take(std::string_view piece) {
+  constexpr std::size_t most = 1U << 18U;  // at once; expat counts in int
+  for (; !piece.empty(); piece.remove_prefix(std::min(piece.size(), most))) {
+    const std::string_view part = piece.substr(0, most);
+    check(XML_Parse(parser_, part.data(), static_cast<int>(part.size()), XML_FALSE) == XML_STATUS_OK);
+    taken_ += part.size();
+    const XML_Index parsed = std::max<XML_Index>(XML_GetCurrentByteIndex(parser_), 0);
+    if (taken_ - static_cast<std::size_t>(parsed) > longest_xml_token + most)
+      throw error(
+          fmt::format("tag or comment of more than {} bytes, which is what is allowed", longest_xml_token));
+  }
 }
 
 }  // namespace
@@ -62,56 +113,10 @@ void XmlAttributes::each(const std::function<void(std::string_view, std::string_
   for (const char** entry = list_; *entry != nullptr; entry += 2) use(entry[0], entry[1]);
 }
 
-XmlReader::XmlReader(XmlHandler& handler) : state_(std::make_unique<State>(handler)) {
-  XML_SetUserData(state_->parser, state_.get());
-  XML_SetStartElementHandler(state_->parser, [](void* data, const char* name, const char** attributes) {
-    State& state = state_of<State>(data);
-    state.guarded([&] {
-      if (++state.levels > most_xml_levels)
-        throw MeshFileError(
-            fmt::format("elements are nested more than {} deep, which is what is allowed", most_xml_levels),
-            0, 0);
-      state.handler.start(name, XmlAttributes(attributes));
-    });
-  });
-  XML_SetEndElementHandler(state_->parser, [](void* data, const char*) {
-    State& state = state_of<State>(data);
-    state.guarded([&] {
-      --state.levels;
-      state.handler.end();
-    });
-  });
-  XML_SetStartDoctypeDeclHandler(state_->parser, [](void* data, const char*, const char*, const char*, int) {
-    state_of<State>(data).guarded(
-        [] { throw MeshFileError("document type declaration, allowed are files without one", 0, 0); });
-  });
-}
-
-XmlReader::~XmlReader() = default;
-
-void XmlReader::check(bool good) {
-  if (state_->failure) std::rethrow_exception(state_->failure);
-  if (good) return;
-  const XML_Error code = XML_GetErrorCode(state_->parser);
-  if (code == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-  throw state_->error(fmt::format("no well-formed XML ({})", XML_ErrorString(code)));
-}
-
-void XmlReader::take(std::string_view piece) {
-  constexpr std::size_t most = 1U << 18U;  // at once; expat counts in int
-  for (; !piece.empty(); piece.remove_prefix(std::min(piece.size(), most))) {
-    const std::string_view part = piece.substr(0, most);
-    check(XML_Parse(state_->parser, part.data(), static_cast<int>(part.size()), XML_FALSE) == XML_STATUS_OK);
-    state_->taken += part.size();
-    const XML_Index parsed = std::max<XML_Index>(XML_GetCurrentByteIndex(state_->parser), 0);
-    if (state_->taken - static_cast<std::size_t>(parsed) > longest_xml_token + most)
-      throw state_->error(
-          fmt::format("tag or comment of more than {} bytes, which is what is allowed", longest_xml_token));
-  }
-}
-
-void XmlReader::finish() {
-  check(XML_Parse(state_->parser, "", 0, XML_TRUE) == XML_STATUS_OK);
+void read_xml(XmlHandler& handler, const std::function<void(const XmlSink&)>& source) {
+  XmlReader reader(handler);
+  source([&reader](std::string_view piece) { reader.take(piece); });
+  reader.finish();
 }
 
 std::string xml_library_version() {

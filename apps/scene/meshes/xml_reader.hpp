@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,25 +36,12 @@ class XmlHandler {
   virtual void end() = 0;
 };
 
-class XmlReader {
- public:
-  explicit XmlReader(XmlHandler& handler);
-  ~XmlReader();
-  XmlReader(const XmlReader&) = delete;
-  XmlReader& operator=(const XmlReader&) = delete;
+using XmlSink = std::function<void(std::string_view piece)>;
 
-  /// @throws MeshFileError: not well-formed, a document type (which may declare entities), nesting too deep, a tag
-  /// that is too long, and exceptions of the handler
-  void take(std::string_view piece);
-  /// To be called after the last part.
-  void finish();
-
- private:
-  struct State;
-  void check(bool good);
-
-  std::unique_ptr<State> state_;
-};
+/// Reads a whole document. @param source passes its pieces to the sink, one after the other
+/// @throws MeshFileError: not well-formed, a document type (which may declare entities), nesting too deep, a tag that is
+/// too long; exceptions of the handler and of the source
+void read_xml(XmlHandler& handler, const std::function<void(const XmlSink&)>& source);
 
 /// Version of expat.
 [[nodiscard]] std::string xml_library_version();

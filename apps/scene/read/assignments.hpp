@@ -19,8 +19,9 @@ namespace ashlar {
 /// a block that becomes fixed.
 void apply_assignments(Scene& scene, Diagnostics& diagnostics);
 
-/// To be called after the cuts and choose_blocks_inside: applies assignments to the pieces that patterns match, except
-/// those of a block matched by the same pattern, which have inherited everything from it, and to the blocks of regions.
+/// Applies assignments to the pieces that patterns match, except those of a block matched by the same pattern, which
+/// have inherited everything from it, and to the blocks of regions.
+/// @param scene whose cuts have been made (cut_scene) and whose regions have their blocks (choose_blocks_inside)
 void apply_later_assignments(Scene& scene, Diagnostics& diagnostics);
 
 /// The pieces changed by apply_later_assignments, by assignment, as indices of blocks.

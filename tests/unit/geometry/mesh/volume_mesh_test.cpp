@@ -179,14 +179,16 @@ TEST_P(BadMsh, IsRefusedAtItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     VolumeMesh, BadMsh,
     ::testing::Values(Fault{"2.2 0", "4.0 0", "2: version of the format (4.0), must be 2.0, 2.1, 2.2 or 4.1"},
-                      Fault{"2.2 0", "2.2 1", "2: kind of file (1), must be 0"},
+                      Fault{"2.2 0", "2.2 2", "2: kind of file (2), must be 0, text, or 1, binary"},
                       Fault{"$MeshFormat", "$Mesh", "1: "}, Fault{"\"upper\"", "\"upper", "8: "},
                       Fault{"8 1 1 1", "7 1 1 1", "19: number of a node (7), is given twice"},
                       Fault{"8 1 1 1", "8 1 1 x", "19: z coordinate (x)"},
                       Fault{"6 4 2 2 1 1 5 6 8", "6 4 2 2 1 1 5 6 9", "number of a node (9), no node"},
                       Fault{"6 4 2 2 1 1 5 6 8", "6 4 2 2 1 1 5 5 8", "it has no volume"},
-                      Fault{"6 4 2 2 1 1 5 6 8", "6 11 2 2 1 1 5 6 8",
-                            "(11), must be 4: tetrahedra with 4 nodes"},
+                      Fault{"6 4 2 2 1 1 5 6 8", "6 29 2 2 1 1 5 6 8",
+                            "(29), must be 4 or 11: tetrahedra with 4 or 10 nodes"},
+                      Fault{"6 4 2 2 1 1 5 6 8", "6 11 2 2 1 1 5 6 8 1 2 3 4 5",
+                            "28: line ends before number of a node"},
                       Fault{"7 4 2 3 1 6 1 2 8\n", "", "number of an element ($EndElements)"},
                       Fault{"$EndElements", "", "file ends before $EndElements"},
                       Fault{"$Elements\n7", "$Elements\n1", "$EndElements"},
@@ -257,7 +259,7 @@ TEST(VolumeMesh, SurfacesOfAFileWithoutTetrahedraAreBodies) {
     FAIL();
   } catch (const MeshFileError& error) {
     EXPECT_EQ(error.line(), 29);
-    EXPECT_THAT(error.what(), HasSubstr("no triangles with 3 nodes"));
+    EXPECT_THAT(error.what(), HasSubstr("no triangles with 3 or 6 nodes"));
   }
 }
 

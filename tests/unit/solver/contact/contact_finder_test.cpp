@@ -150,9 +150,9 @@ TEST(ContactFinder, BlocksThatWouldPassAreReportedEarliestFirst) {
   scene.move(2, {0, 0, -4});
   const auto passing = finder.check_motion(before, scene.states, found, histories);
   ASSERT_FALSE(passing.empty());
-  EXPECT_EQ(passing.front().blocks, (std::array<int, 2>{1, 2}));
+  EXPECT_EQ(passing.front().blocks, (PairKey{1, 2}));
   EXPECT_NEAR(passing.front().touch.share, 0.1 / 4.0, 1e-4);
-  EXPECT_EQ(passing.back().blocks, (std::array<int, 2>{0, 2}));
+  EXPECT_EQ(passing.back().blocks, (PairKey{0, 2}));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct Subject {
   BlockState state_a = a.initial_state();
   BlockState state_b = b.initial_state();
   std::vector<ContactPoint> points = skew_points();
-  PairRows rows{{&a, &state_a, nullptr}, {&b, &state_b, nullptr}, points, nullptr};
+  PairRows rows{{&a, &state_a, nullptr}, {&b, &state_b, nullptr}, points};
 };
 
 BlockDefinition base() {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
+#include "solver/run/checkpoint.hpp"
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
@@ -243,6 +246,55 @@ TEST(Simulation, BlocksOfDifferentOrdersInOneScene) {
   }
   EXPECT_NEAR(on_a, 2500 * 9.81, 1e-3 * 2500 * 9.81);
   EXPECT_NEAR(on_b_from_base, 17 * 2500 * 9.81, 1e-3 * 17 * 2500 * 9.81);
+}
+
+// A run has one start: its parts are refused once contacts are detected, and nothing changes then.
+TEST(Simulation, PartsOfTheStartAreRefusedAfterAStep) {
+  SimulationSettings settings;
+  settings.time_step = 1e-2;
+  settings.gravity = {0, 0, -10};
+  const auto make = [&] {
+    return Simulation(models(block_of("A", Polyhedron(make_box({0, 0, 1}, {1, 1, 2})), rock, 1)), {{}},
+                      same_law({}), settings);
+  };
+  const auto refuses_all = [](Simulation& simulation) {
+    const std::string before = to_bytes(simulation.snapshot());
+    EXPECT_THROW(simulation.start_overlapping({}), std::logic_error);
+    EXPECT_THROW(simulation.start_stressed(), std::logic_error);
+    EXPECT_THROW(simulation.add_bolts({}), std::logic_error);
+    EXPECT_THROW(simulation.settle_supported_blocks(), std::logic_error);
+    EXPECT_THROW((void)simulation.start_from_statics(), std::logic_error);
+    EXPECT_THROW(simulation.start_stage(simulation.snapshot(), {false}), std::logic_error);
+    EXPECT_EQ(to_bytes(simulation.snapshot()), before);
+  };
+  Simulation stepped = make();
+  ASSERT_EQ(stepped.step(1.0), StepStatus::accepted);
+  refuses_all(stepped);
+  Simulation resumed = make();
+  resumed.restore(stepped.snapshot());
+  refuses_all(resumed);
+  // The stage before may end where it started: its contacts have been detected all the same.
+  Simulation staged = make();
+  staged.start_stage(make().snapshot(), {false});
+  refuses_all(staged);
+}
+
+TEST(Simulation, BoltsAreAddedTogether) {
+  const auto bolt = [] {
+    BoltLaw law;
+    law.axial_stiffness = 1e7;
+    law.anchorage = BoltAnchorage::ends;
+    const std::vector<BoltSpan> ends = {{0, 1, 0.0, 0.0}, {1, 1, 0.5, 0.5}};
+    return Bolt{"bar",
+                BoltChain(law, BoltShape(law, {0.5, 0.5, 2}, {0.5, 0.5, 2.5}, ends, 0.02), {true, true}),
+                true};
+  };
+  Simulation simulation(models(block_of("A", Polyhedron(make_box({0, 0, 1}, {1, 1, 2})), rock, 1),
+                               fixed_block(Polyhedron(make_box({0, 0, 2.5}, {1, 1, 3})))),
+                        {{}, {}}, same_law({}), {});
+  simulation.add_bolts({bolt()});
+  EXPECT_THROW(simulation.add_bolts({bolt()}), std::logic_error);
+  EXPECT_EQ(simulation.system().bolts().size(), 1U);
 }
 
 TEST(Simulation, ResultsDoNotDependOnThreads) {

@@ -36,7 +36,7 @@ TEST(BlockSystem, TiesBlocksWithACommonFaceAndLeavesTheOthersOut) {
   EXPECT_FALSE(system.are_tied(2, 3)) << "7 m apart";
   EXPECT_TRUE(system.is_tied(2));
   EXPECT_FALSE(system.is_tied(3));
-  EXPECT_EQ(system.left_out(), (std::set<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 3}}));
+  EXPECT_EQ(system.left_out(), (std::set<PairKey>{{0, 1}, {1, 2}, {2, 3}}));
   // A block tied to a supported one is not free.
   EXPECT_EQ(system.free_bodies(), (std::vector<std::vector<int>>{{3}}));
 }

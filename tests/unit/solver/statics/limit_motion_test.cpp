@@ -46,7 +46,7 @@ TEST(LimitMotion, JointsOfAMotionAreNamed) {
   const LimitTrial trial = analysis.released({});
   const LimitMotion motion = analysis.motion_of(trial);
   ASSERT_EQ(motion.joints.size(), 1U);
-  EXPECT_EQ(motion.joints[0].blocks, (std::array<int, 2>{0, 1}));
+  EXPECT_EQ(motion.joints[0].blocks, (PairKey{0, 1}));
   EXPECT_EQ(motion.joints[0].motion, JointMotion::slides);
   ASSERT_EQ(motion.blocks.size(), 1U);
   // g (sin a - cos a tan phi) down the slope.

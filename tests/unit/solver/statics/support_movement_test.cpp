@@ -173,7 +173,7 @@ TEST(SupportMovement, OfARoundArchEndsWhereTheLineOfThrustLeavesTheHaunch) {
     for (const MovedPlace& place : path.places)
       EXPECT_NEAR(place.thrust / SpreadArch(arch, haunch, place.moved).thrust(), 1.0, 1e-5) << place.moved;
     ASSERT_EQ(path.joints.size(), 3U);
-    EXPECT_EQ(path.joints.back().blocks, (std::array<int, 2>{haunch - 1, haunch}));
+    EXPECT_EQ(path.joints.back().blocks, (PairKey{haunch - 1, haunch}));
   }
 }
 

@@ -28,7 +28,7 @@ ContactPair pair_of(int a, int b) {
 }
 
 ContactPair tie_of(int a, int b, const Tie& tie) {
-  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}}, tie, 1.0};
+  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}}, std::make_shared<const Tie>(tie), 1.0};
 }
 
 TEST(Island, IsASetOfMovingBlocksThatTouch) {
@@ -63,7 +63,7 @@ TEST(Island, TiesJoinBlocksButAreNoContacts) {
   const std::vector<Island> islands = find_islands({true, true, true}, pairs);
   ASSERT_EQ(islands.size(), 1U);
   EXPECT_EQ(islands[0].bodies, (std::vector<int>{0, 1, 2}));
-  EXPECT_EQ(contacts_of(islands[0], pairs), (std::vector<std::array<int, 2>>{{0, 1}}));
+  EXPECT_EQ(contacts_of(islands[0], pairs), (std::vector<PairKey>{{0, 1}}));
 }
 
 TEST(Island, SetsThatCannotBeAreRefused) {
