@@ -203,9 +203,9 @@ void Simulation::set_time_step(double step) {
 
 void Simulation::set_chord_tolerance(double tolerance) {
   if (!(tolerance > 0.0)) throw std::invalid_argument("a chord tolerance is a length above zero");
-  wake_all(context());
+  wake_all(system_, state_);
   system_.set_chord_tolerance(tolerance);
-  contacts_.finder().set_chord_tolerance(tolerance, state_.pairs);
+  caches_.contacts.finder().set_chord_tolerance(tolerance, state_.pairs);
   state_.statics = StaticState{};
 }
 
