@@ -268,6 +268,21 @@ double cantilever_of(const Setting& setting) {
   return setting.accuracy == 0.0 ? cantilever_error(setting.order) : cantilever_error_for(setting.accuracy);
 }
 
+/// A problem whose step or order is chosen.
+struct AskedProblem {
+  int problem;
+  int order;
+  Integrator integrator;
+  double (*error_of)(const Setting&);
+};
+constexpr std::array<AskedProblem, 6> asked_problems = {
+    {{1, 0, Integrator::dda, incline_error},
+     {1, 0, Integrator::average_acceleration, incline_error},
+     {2, 1, Integrator::average_acceleration, swelling_error},
+     {2, 1, Integrator::generalized_alpha, swelling_error},
+     {3, 0, Integrator::average_acceleration, tumbling_error},
+     {4, 1, Integrator::dda, cantilever_of}}};
+
 /// Compares runs with a chosen step or order with what was asked, and with the fastest of the given ones that has it.
 std::vector<std::string> compare_chosen(StudyResult& result) {
   std::vector<std::string> sentences;
@@ -288,6 +303,22 @@ std::vector<std::string> compare_chosen(StudyResult& result) {
 }
 
 }  // namespace
+
+std::vector<ChosenRun> chosen_runs(int accuracies) {
+  std::vector<ChosenRun> runs;
+  for (const AskedProblem& asked : asked_problems) {
+    Setting setting{asked.order, asked.integrator};
+    setting.accuracy = 0.1;
+    for (int k = 0; k < accuracies; ++k, setting.accuracy *= 0.1)
+      runs.push_back({fmt::format("{}{}", problem_names.at(static_cast<std::size_t>(asked.problem - 1)),
+                                  asked.problem == 4
+                                      ? ""
+                                      : fmt::format(", {}", integrator_names.at(
+                                                                static_cast<std::size_t>(asked.integrator)))),
+                      setting.accuracy, asked.error_of(setting)});
+  }
+  return runs;
+}
 
 StudyResult study_error_time() {
   return study_error_time(ErrorTimeStudySize{});
@@ -322,12 +353,8 @@ StudyResult study_error_time(const ErrorTimeStudySize& size) {
   curves.over_steps(3, {1, Integrator::dda, true, true}, 0.04, tumbling_error);
   curves.start(4, "one block");
   for (int order = 1; order <= 8; ++order) curves.add({order}, cantilever_of);
-  for (const Integrator integrator : {Integrator::dda, Integrator::average_acceleration})
-    curves.over_accuracies(1, {0, integrator}, incline_error);
-  for (const Integrator integrator : {Integrator::average_acceleration, Integrator::generalized_alpha})
-    curves.over_accuracies(2, {1, integrator}, swelling_error);
-  curves.over_accuracies(3, {0, Integrator::average_acceleration}, tumbling_error);
-  curves.over_accuracies(4, {1}, cantilever_of);
+  for (const AskedProblem& asked : asked_problems)
+    curves.over_accuracies(asked.problem, {asked.order, asked.integrator}, asked.error_of);
   result.findings = find_fronts(result);
   for (std::string& sentence : compare_chosen(result)) result.findings.push_back(std::move(sentence));
   // Deformable blocks stretch as they rotate: they converge to another motion, which differs by 2e-4.

@@ -29,6 +29,15 @@ struct ErrorTimeStudySize {
 /// accuracy (> 0: the step, or the order of the cantilever, is chosen for it as by analysis.accuracy).
 /// An error that is not finite is a failed run.
 [[nodiscard]] StudyResult study_error_time();
+
+/// A run of these problems whose step, or whose order, is chosen for an accuracy.
+struct ChosenRun {
+  std::string name;
+  double accuracy;  ///< asked for, relative
+  double error;     ///< true one
+};
+/// @param accuracies number of them: 0.1, 0.01, ...
+[[nodiscard]] std::vector<ChosenRun> chosen_runs(int accuracies);
 [[nodiscard]] StudyResult study_error_time(const ErrorTimeStudySize& size);
 
 }  // namespace ashlar

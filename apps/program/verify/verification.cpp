@@ -20,7 +20,7 @@ std::vector<VerificationCase> all_verification_cases() {
         bond_cases(),         restitution_cases(), safety_cases(),         ground_cases(), boundary_cases(),
         limit_cases(),        stack_cases(),       non_convex_cases(),     hertz_cases(),  impact_cases(),
         support_cases(),      bolt_cases(),        tunnel_cases(),         record_cases(), cutting_cases(),
-        falling_block_cases()})
+        accuracy_cases(),     falling_block_cases()})
     cases.insert(cases.end(), group.begin(), group.end());
   return cases;
 }

@@ -1,0 +1,30 @@
+// Runs that are asked for an accuracy.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "apps/program/study/error_time_study.hpp"
+#include "apps/program/verify/verification.hpp"
+
+namespace ashlar {
+namespace {
+
+std::vector<VerificationCheck> check_accuracy() {
+  std::vector<VerificationCheck> checks;
+  for (const ChosenRun& run : chosen_runs(3))
+    checks.push_back(
+        check_absolute(fmt::format("{}, error with an accuracy of {:.0e}", run.name, run.accuracy), run.error,
+                       0.0, run.accuracy));
+  return checks;
+}
+
+constexpr std::array<VerificationCase, 1> cases = {
+    {{"accuracy-asked", "orders and steps chosen for an accuracy: true errors", check_accuracy}}};
+
+}  // namespace
+
+std::span<const VerificationCase> accuracy_cases() {
+  return cases;
+}
+
+}  // namespace ashlar
