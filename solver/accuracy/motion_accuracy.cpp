@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/index.hpp"
+#include "solver/accuracy/goal_distance.hpp"
 #include "solver/run/order_error.hpp"
 #include "solver/step/snapshot.hpp"
 
@@ -21,12 +22,6 @@ double energy_of(const BlockModel& block, const BlockState& state) {
 /// Root of the mean square over the block, m.
 double mean_length(const BlockModel& block, const Eigen::MatrixX3d& field) {
   return field.norm() / std::sqrt(block.basis().volume());
-}
-
-double length(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum);
 }
 
 /// Contact state of each pair: numbers of open, locked and sliding points are too fine, as points come and go with the
@@ -89,10 +84,8 @@ double difference(const Simulation& simulation, const MotionScales& scales, cons
   if (a.goals.empty() && scales.displacement > 0.0)
     largest = std::max(largest, displacement / scales.displacement);
   for (std::size_t k = 0; k < a.goals.size(); ++k) {
-    std::vector<double> change(a.goals[k].values.size());
-    for (std::size_t n = 0; n < change.size(); ++n) change[n] = a.goals[k].values[n] - b.goals[k].values[n];
     const double scale = std::max(scales.goals[k], a.goals[k].least);
-    if (scale > 0.0) largest = std::max(largest, length(change) / scale);
+    if (scale > 0.0) largest = std::max(largest, goal_distance(a.goals[k].values, b.goals[k].values) / scale);
   }
   return largest;
 }
@@ -162,7 +155,7 @@ std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const
     run.scales.goals.resize(values.size(), 0.0);
     run.round.goals.resize(values.size());
     for (std::size_t k = 0; k < values.size(); ++k) {
-      run.scales.goals[k] = std::max(run.scales.goals[k], length(values[k].values));
+      run.scales.goals[k] = std::max(run.scales.goals[k], goal_length(values[k].values));
       run.round.goals[k].resize(values[k].values.size(), 0.0);
       for (std::size_t n = 0; n < values[k].values.size(); ++n)
         run.round.goals[k][n] = std::max(run.round.goals[k][n], std::abs(values[k].values[n]));

@@ -7,22 +7,13 @@
 
 #include "geometry/index.hpp"
 #include "solver/accuracy/chosen_orders.hpp"
+#include "solver/accuracy/goal_distance.hpp"
 #include "solver/run/order_error.hpp"
 
 namespace ashlar {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::infinity();
-
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return std::sqrt(sum);
-}
-
-double length(const std::vector<double>& values) {
-  return distance(values, std::vector<double>(values.size(), 0.0));
-}
+constexpr double no_estimate = std::numeric_limits<double>::infinity();
 
 double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -62,7 +53,7 @@ AccuracyRound round_of(const Simulation& simulation, const std::vector<Goal>& go
 double distance_to_limit(const std::vector<AccuracyRound>& rounds, std::size_t goal) {
   constexpr double least_ratio = 1.0 / 3.0, largest_ratio = 0.8, unknown_ratio = 0.5;
   const auto change = [&](std::size_t k) {
-    return distance(rounds[k].goals[goal], rounds[k - std::min<std::size_t>(k, 2)].goals[goal]);
+    return goal_distance(rounds[k].goals[goal], rounds[k - std::min<std::size_t>(k, 2)].goals[goal]);
   };
   const std::size_t last = rounds.size() - 1;
   double ratio = last < 3 ? unknown_ratio : least_ratio;
@@ -71,9 +62,9 @@ double distance_to_limit(const std::vector<AccuracyRound>& rounds, std::size_t g
   return change(last) * ratio / (1.0 - ratio);
 }
 
-double relative(double error, const Goal& goal) {
-  const double scale = std::max(length(goal.values), goal.least);
-  return error > 0.0 ? (scale > 0.0 ? error / scale : unknown) : 0.0;
+double relative_to(double error, const Goal& goal) {
+  const double scale = std::max(goal_length(goal.values), goal.least);
+  return error > 0.0 ? (scale > 0.0 ? error / scale : no_estimate) : 0.0;
 }
 
 /// True if all moving blocks that deform are estimated.
@@ -86,8 +77,8 @@ bool is_whole(const AccuracyRound& round) {
 /// Error of a goal by the orders of blocks. If all blocks are estimated, it is not larger than the error in the norm of
 /// the energy.
 double order_error_of(const std::vector<AccuracyRound>& rounds, std::size_t index, const Goal& goal) {
-  const double in_norm = is_whole(rounds.back()) ? std::sqrt(error_of_energy(rounds.back())) : unknown;
-  return rounds.size() > 1 ? std::min(in_norm, relative(distance_to_limit(rounds, index), goal)) : in_norm;
+  const double in_norm = is_whole(rounds.back()) ? std::sqrt(error_of_energy(rounds.back())) : no_estimate;
+  return rounds.size() > 1 ? std::min(in_norm, relative_to(distance_to_limit(rounds, index), goal)) : in_norm;
 }
 
 /// Sub-faces: errors of gaps are proportional to the chord tolerance, which a round divides by this.
@@ -98,7 +89,7 @@ double sub_face_error_of(const AccuracyRounds& rounds, std::size_t index, const 
   const std::vector<double>& before = rounds.sub_faces.size() > 1
                                           ? rounds.sub_faces[rounds.sub_faces.size() - 2].goals[index]
                                           : rounds.orders.back().goals[index];
-  return relative(distance(rounds.sub_faces.back().goals[index], before) / (of_chord - 1.0), goal);
+  return relative_to(goal_distance(rounds.sub_faces.back().goals[index], before) / (of_chord - 1.0), goal);
 }
 
 double sub_face_error_of_energy(const AccuracyRounds& rounds) {

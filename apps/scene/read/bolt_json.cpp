@@ -1,15 +1,14 @@
 #include "apps/scene/read/bolt_json.hpp"
 
 #include "apps/scene/model/scene_names.hpp"
+#include "apps/scene/read/analysis_json.hpp"
 
 namespace ashlar {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Vector3& vector) {
-  return {vector.x(), vector.y(), vector.z()};
-}
+using ashlar::to_json;  // beside those below
 
 Json to_json(const SceneBolt::Pattern& pattern) {
   Json json = {
