@@ -96,7 +96,7 @@ void bind_scene(py::module_& module) {
       .def("json", [](const CoreScene& scene) { return json_text(to_json(scene.good()->scene)); })
       .def("blocks_json", [](const CoreScene& scene) {
         const py::gil_scoped_release released;
-        return json_text(report_json(BlockReport(*scene.good()), nullptr));
+        return json_text(report_json(BlockReport(scene.good()), nullptr));
       });
   module.def("load", &load_core, py::arg("text"), py::arg("file"), py::arg("overrides"));
 }

@@ -28,12 +28,13 @@ std::vector<BlockBorder> merged(std::vector<BlockBorder> borders) {
 
 }  // namespace
 
-BlockReport::BlockReport(const LoadedScene& loaded) : loaded_(loaded), whole_(loaded.solids.size()) {
-  for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
-    const Polyhedron& body = loaded.solids[k];
-    if (!is_piece(loaded, k)) whole_[k].emplace(body);
+BlockReport::BlockReport(std::shared_ptr<const LoadedScene> loaded)
+    : loaded_(std::move(loaded)), whole_(loaded_->solids.size()) {
+  for (std::size_t k = 0; k < loaded_->solids.size(); ++k) {
+    const Polyhedron& body = loaded_->solids[k];
+    if (!is_piece(*loaded_, k)) whole_[k].emplace(body);
     BlockEntry& entry = blocks_.emplace_back();
-    entry.volume = is_piece(loaded, k) ? solid(k).solid->volume(solid(k).piece) : body.volume();
+    entry.volume = is_piece(*loaded_, k) ? solid(k).solid->volume(solid(k).piece) : body.volume();
     for (const PieceFace& face : solid(k).solid->faces(solid(k).piece))
       entry.surface += solid(k).solid->area(face);
   }
@@ -44,16 +45,16 @@ BlockReport::BlockReport(const LoadedScene& loaded) : loaded_(loaded), whole_(lo
 
 BlockSolid BlockReport::solid(std::size_t block) const {
   if (whole_[block]) return {&*whole_[block], 0};
-  const auto& [uncut, piece] = loaded_.scene.rock->origin[block];
-  return {&*loaded_.scene.rock->solids[uncut], piece};
+  const auto& [uncut, piece] = loaded_->scene.rock->origin[block];
+  return {&*loaded_->scene.rock->solids[uncut], piece};
 }
 
 bool BlockReport::is_there(std::size_t block) const {
-  return loaded_.scene.absent.empty() || !loaded_.scene.absent[block];
+  return loaded_->scene.absent.empty() || !loaded_->scene.absent[block];
 }
 
 std::size_t BlockReport::neighbour(std::size_t block, const PieceFace& face) const {
-  return block_of_.at({loaded_.scene.rock->origin[block].uncut, face.neighbour});
+  return block_of_.at({loaded_->scene.rock->origin[block].uncut, face.neighbour});
 }
 
 bool BlockReport::is_bare(std::size_t block, const PieceFace& face) const {
@@ -61,8 +62,8 @@ bool BlockReport::is_bare(std::size_t block, const PieceFace& face) const {
 }
 
 void BlockReport::add_borders_of_pieces() {
-  if (!loaded_.scene.rock) return;
-  const CutRock& rock = *loaded_.scene.rock;
+  if (!loaded_->scene.rock) return;
+  const CutRock& rock = *loaded_->scene.rock;
   for (std::size_t k = 0; k < rock.origin.size(); ++k)
     block_of_[{rock.origin[k].uncut, rock.origin[k].piece}] = k;
   for (std::size_t k = 0; k < rock.origin.size(); ++k) {
@@ -79,19 +80,19 @@ void BlockReport::add_borders_of_pieces() {
 
 void BlockReport::add_contacts() {
   std::vector<Box> boxes;
-  for (std::size_t k = 0; k < loaded_.solids.size(); ++k)
-    boxes.push_back(box_of(loaded_.solids[k].mesh().points)
-                        .grown(allowed_initial_overlap * std::cbrt(loaded_.solids[k].volume())));
+  for (std::size_t k = 0; k < loaded_->solids.size(); ++k)
+    boxes.push_back(box_of(loaded_->solids[k].mesh().points)
+                        .grown(allowed_initial_overlap * std::cbrt(loaded_->solids[k].volume())));
   for (const auto& [first, second] : meeting_boxes(boxes)) {
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
-    const bool same = is_piece(loaded_, a) && is_piece(loaded_, b) &&
-                      loaded_.scene.rock->origin[a].uncut == loaded_.scene.rock->origin[b].uncut;
+    const bool same = is_piece(*loaded_, a) && is_piece(*loaded_, b) &&
+                      loaded_->scene.rock->origin[a].uncut == loaded_->scene.rock->origin[b].uncut;
     if (!same && is_there(a) && is_there(b)) add_contact(a, b);
   }
 }
 
 void BlockReport::add_contact(std::size_t a, std::size_t b) {
-  const Polyhedron &first = loaded_.solids[a], &second = loaded_.solids[b];
+  const Polyhedron &first = loaded_->solids[a], &second = loaded_->solids[b];
   const double distance = allowed_initial_overlap * std::cbrt(std::min(first.volume(), second.volume()));
   const ReportedSolid one(first), other(second);
   const bool convex = one.shape() != nullptr && other.shape() != nullptr;
@@ -130,7 +131,7 @@ double BlockReport::volume() const {
 }
 
 std::vector<double> BlockReport::areas_by_cut() const {
-  std::vector<double> areas(loaded_.scene.cut.size(), 0.0);
+  std::vector<double> areas(loaded_->scene.cut.size(), 0.0);
   for (std::size_t k = 0; k < blocks_.size(); ++k)
     for (const BlockBorder& border : blocks_[k].borders)
       if (border.cut && border.block > k) areas[*border.cut] += border.area;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,8 +37,8 @@ class BlockReport {
  public:
   /// Borders of pieces of one block are exact, each area rounded once. Those of other blocks are faces in contact
   /// within the allowed overlap of a scene, with areas of rounded corners.
-  /// @param loaded must outlive the report
-  explicit BlockReport(const LoadedScene& loaded);
+  /// @param loaded not null
+  explicit BlockReport(std::shared_ptr<const LoadedScene> loaded);
 
   [[nodiscard]] const std::vector<BlockEntry>& blocks() const { return blocks_; }
   [[nodiscard]] BlockSolid solid(std::size_t block) const;
@@ -45,7 +46,7 @@ class BlockReport {
   [[nodiscard]] bool is_there(std::size_t block) const;
   /// True for a face of a block without another piece that is there on its other side.
   [[nodiscard]] bool is_bare(std::size_t block, const PieceFace& face) const;
-  [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+  [[nodiscard]] const LoadedScene& loaded() const { return *loaded_; }
   /// m^3, of all blocks that are there; m^2, of the faces that each cut made, by index in Scene::cut.
   [[nodiscard]] double volume() const;
   [[nodiscard]] std::vector<double> areas_by_cut() const;
@@ -58,7 +59,7 @@ class BlockReport {
   void add_contact(std::size_t a, std::size_t b);
   void add_border(std::size_t block, std::size_t other, const Vector3& normal, double area);
 
-  const LoadedScene& loaded_;
+  std::shared_ptr<const LoadedScene> loaded_;
   std::vector<std::optional<CutSolid>> whole_;                   ///< by block, for those that are no pieces
   std::map<std::pair<std::size_t, int>, std::size_t> block_of_;  ///< by uncut block and piece
   std::vector<BlockEntry> blocks_;

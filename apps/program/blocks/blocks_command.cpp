@@ -109,7 +109,7 @@ int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream
       return exit_status::bad_input;
     }
   }
-  const BlockReport report(*loaded);
+  const BlockReport report(std::make_shared<const LoadedScene>(*std::move(loaded)));
   std::vector<RemovableBlock> removable;
   if (force) removable = find_removable_blocks(report, *force);
   const std::vector<RemovableBlock>* looked_at = force ? &removable : nullptr;

@@ -74,7 +74,7 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, doubl
       };
   }
   if (!block.fixed) definition.initial_stress = initial_stress_of(scene, index, loaded.stage);
-  definition.quiet = boundaries.of_block(index);
+  definition.quiet = boundaries.of_block(scene, loaded.solids[index], index);
   // After those of the scene, whose numbers stay.
   if (Load pressure = water.of_block(index); !pressure.parts.empty())
     definition.loads.push_back(std::move(pressure));

@@ -86,41 +86,33 @@ std::vector<std::size_t> layers_at(const SideColumn& side, const Polyhedron& sol
   return layers;
 }
 
-}  // namespace
-
-QuietBoundaries::QuietBoundaries(const Scene& scene, const std::vector<Polyhedron>& solids,
-                                 const SimulationSettings& settings, Diagnostics& diagnostics)
-    : scene_(scene), solids_(solids) {
-  for (std::size_t i = 0; i < scene.boundary.size(); ++i) sides_.push_back(side_of(i, settings, diagnostics));
-}
-
-SideColumn QuietBoundaries::side_of(std::size_t boundary, const SimulationSettings& settings,
-                                    Diagnostics& diagnostics) const {
+SideColumn side_of(const Scene& scene, std::size_t boundary, const std::vector<Polyhedron>& of_blocks,
+                   const SimulationSettings& settings, Diagnostics& diagnostics) {
   SideColumn side;
-  const auto base = base_of_side(scene_, boundary);
-  if (scene_.boundary[boundary].kind != SceneBoundary::Kind::free_field || !base ||
-      scene_.boundary[*base].wave.empty() || is_static(scene_.analysis))
+  const auto base = base_of_side(scene, boundary);
+  if (scene.boundary[boundary].kind != SceneBoundary::Kind::free_field || !base ||
+      scene.boundary[*base].wave.empty() || is_static(scene.analysis))
     return side;
   std::vector<const Polyhedron*> solids;
-  for (const Polyhedron& solid : solids_) solids.push_back(&solid);
-  const SideLayers found = layers_beside(scene_, boundary, *base, solids);
+  for (const Polyhedron& solid : of_blocks) solids.push_back(&solid);
+  const SideLayers found = layers_beside(scene, boundary, *base, solids);
   if (!found.fault.empty()) {
-    diagnostics.error(scene_.places.value(fmt::format("boundary.{}.plane", boundary)),
+    diagnostics.error(scene.places.value(fmt::format("boundary.{}.plane", boundary)),
                       fmt::format("free-field has no column of ground ({})", found.fault));
     return side;
   }
   std::vector<GroundLayer> layers;
   for (const auto& [bottom, top, block] : found.layers)
-    layers.push_back({bottom, top, material_of(scene_, block), scene_.block[block].order});
+    layers.push_back({bottom, top, material_of(scene, block), scene.block[block].order});
   side.column = std::make_shared<const FreeFieldColumn>(std::move(layers));
-  side.axis = -scene_.boundary[*base].plane.normal.normalized();
-  side.origin = scene_.boundary[*base].plane.point;
+  side.axis = -scene.boundary[*base].plane.normal.normalized();
+  side.origin = scene.boundary[*base].plane.point;
   const auto nodes = static_cast<Eigen::Index>(side.column->nodes().size());
   bool along = true;
   for (const Vector3& direction : frame_of(side.axis)) {
     const ColumnMotion motion = side.column->motion(
         std::exchange(along, false) ? ColumnWave::along : ColumnWave::across,
-        component_of(scene_.boundary[*base], direction), settings, scene_.analysis.end_time);
+        component_of(scene.boundary[*base], direction), settings, scene.analysis.end_time);
     side.times = motion.times;
     side.displacement.resize(side.times.size(), Eigen::MatrixX3d::Zero(nodes, 3));
     side.velocity.resize(side.times.size(), Eigen::MatrixX3d::Zero(nodes, 3));
@@ -133,12 +125,12 @@ SideColumn QuietBoundaries::side_of(std::size_t boundary, const SimulationSettin
   return side;
 }
 
-std::vector<Load> QuietBoundaries::beside(const SideColumn& side, std::size_t block,
-                                          const std::vector<int>& faces) const {
-  const Polyhedron& solid = solids_[block];
+/// Tractions of a column on faces of a block. @param material of the block
+std::vector<Load> beside(const SideColumn& side, const Polyhedron& solid, const Material& material,
+                         const std::vector<int>& faces) {
   const Vector3& normal = solid.faces()[at(faces.front())].normal;
   const Vector3& up = side.axis;
-  const Eigen::Matrix3d resistance = impedance(material_of(scene_, block), normal);
+  const Eigen::Matrix3d resistance = impedance(material, normal);
   std::vector<Load> loads;
   for (const std::size_t layer : layers_at(side, solid, faces)) {
     const GroundLayer& ground = side.column->layers()[layer];
@@ -171,19 +163,28 @@ std::vector<Load> QuietBoundaries::beside(const SideColumn& side, std::size_t bl
   return loads;
 }
 
-std::vector<QuietFaces> QuietBoundaries::of_block(std::size_t block) const {
+}  // namespace
+
+QuietBoundaries::QuietBoundaries(const Scene& scene, const std::vector<Polyhedron>& solids,
+                                 const SimulationSettings& settings, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < scene.boundary.size(); ++i)
+    sides_.push_back(side_of(scene, i, solids, settings, diagnostics));
+}
+
+std::vector<QuietFaces> QuietBoundaries::of_block(const Scene& scene, const Polyhedron& solid,
+                                                  std::size_t block) const {
   std::vector<QuietFaces> result;
-  if (scene_.block[block].fixed) return result;
-  for (std::size_t i = 0; i < scene_.boundary.size(); ++i) {
-    const SceneBoundary& boundary = scene_.boundary[i];
-    const std::vector<int> faces = outer_faces(solids_[block], {boundary.plane.point, boundary.plane.normal});
+  if (scene.block[block].fixed) return result;
+  for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
+    const SceneBoundary& boundary = scene.boundary[i];
+    const std::vector<int> faces = outer_faces(solid, {boundary.plane.point, boundary.plane.normal});
     if (faces.empty()) continue;
+    const Material material = material_of(scene, block);
     result.push_back({.where = FaceList{faces},
-                      .components = held_components(boundary.plane.normal, scene_.analysis.gravity),
+                      .components = held_components(boundary.plane.normal, scene.analysis.gravity),
                       .driving = sides_[i].column != nullptr
-                                     ? beside(sides_[i], block, faces)
-                                     : wave_loads(solids_[block], faces, material_of(scene_, block),
-                                                  velocity_of(boundary))});
+                                     ? beside(sides_[i], solid, material, faces)
+                                     : wave_loads(solid, faces, material, velocity_of(boundary))});
   }
   return result;
 }

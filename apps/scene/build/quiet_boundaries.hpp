@@ -31,23 +31,17 @@ struct SideColumn {
 /// Quiet faces of all blocks of a scene of one stage.
 class QuietBoundaries {
  public:
-  /// @param scene,solids must outlive this; a scene that check_boundaries() has accepted. @param solids by block
+  /// @param scene that check_boundaries() has accepted. @param solids by block
   /// @param settings integrator, time_step and damping of the run
   QuietBoundaries(const Scene& scene, const std::vector<Polyhedron>& solids,
                   const SimulationSettings& settings, Diagnostics& diagnostics);
 
   /// Faces of a block in the planes of boundaries, with what drives them. Empty for a fixed block.
-  [[nodiscard]] std::vector<QuietFaces> of_block(std::size_t block) const;
+  /// @param scene that of the constructor. @param solid of the block
+  [[nodiscard]] std::vector<QuietFaces> of_block(const Scene& scene, const Polyhedron& solid,
+                                                 std::size_t block) const;
 
  private:
-  [[nodiscard]] SideColumn side_of(std::size_t boundary, const SimulationSettings& settings,
-                                   Diagnostics& diagnostics) const;
-  /// Tractions of the column on faces of a block.
-  [[nodiscard]] std::vector<Load> beside(const SideColumn& side, std::size_t block,
-                                         const std::vector<int>& faces) const;
-
-  const Scene& scene_;
-  const std::vector<Polyhedron>& solids_;
   std::vector<SideColumn> sides_;  ///< by boundary
 };
 

@@ -105,9 +105,9 @@ BufferFile buffer_files_in(const fs::path& folder) {
   };
 }
 
-GltfBuffers::GltfBuffers(const JsonNode& root, std::string_view chunk, BufferFile file)
-    : root_(root), chunk_(chunk), file_(std::move(file)) {
-  const auto accessors = root.find("accessors");
+GltfBuffers::GltfBuffers(JsonNode root, std::string_view chunk, BufferFile file)
+    : root_(std::move(root)), chunk_(chunk), file_(std::move(file)) {
+  const auto accessors = root_.find("accessors");
   accessors_ = accessors ? accessors->size() : 0;
 }
 

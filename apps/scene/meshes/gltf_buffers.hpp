@@ -25,8 +25,8 @@ using BufferFile = std::function<std::shared_ptr<const std::string>(const std::s
 
 class GltfBuffers {
  public:
-  /// @param root, chunk, file must outlive this. @param chunk of a .glb file, otherwise empty
-  GltfBuffers(const JsonNode& root, std::string_view chunk, BufferFile file);
+  /// @param chunk of a .glb file, otherwise empty; must outlive this
+  GltfBuffers(JsonNode root, std::string_view chunk, BufferFile file);
 
   /// Number of elements of an accessor. The buffer has bytes for all of them.
   [[nodiscard]] std::size_t count(std::size_t accessor);
@@ -54,7 +54,7 @@ class GltfBuffers {
   std::string_view view(const JsonNode& view);
   std::string_view buffer(std::size_t index);
 
-  const JsonNode& root_;
+  JsonNode root_;
   std::string_view chunk_;
   BufferFile file_;
   std::size_t accessors_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -90,7 +91,9 @@ Eigen::Affine3d transformation_of(const JsonNode& node) {
 class GltfReader {
  public:
   GltfReader(std::string_view text, std::string_view chunk, const BufferFile& file)
-      : json_(parse_json_file(text)), root_(json_, ""), bytes_(text.size()), buffers_(root_, chunk, file) {}
+      : root_(std::make_shared<const nlohmann::json>(parse_json_file(text)), ""),
+        bytes_(text.size()),
+        buffers_(root_, chunk, file) {}
 
   ShapeLayout run() {
     const std::string& version = root_.at("asset").at("version").text();
@@ -232,7 +235,6 @@ class GltfReader {
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  nlohmann::json json_;
   JsonNode root_;
   std::size_t bytes_;
   GltfBuffers buffers_;

@@ -65,7 +65,8 @@ nlohmann::json parse_json_file(std::string_view text) {
   return nlohmann::json::parse(text.begin(), text.end());
 }
 
-JsonNode::JsonNode(const nlohmann::json& value, std::string path) : value_(&value), path_(std::move(path)) {}
+JsonNode::JsonNode(std::shared_ptr<const nlohmann::json> value, std::string path)
+    : value_(std::move(value)), path_(std::move(path)) {}
 
 void JsonNode::fail(const std::string& fault, const std::string& allowed) const {
   throw MeshFileError(fmt::format("{} {}, allowed {}", path_.empty() ? "file" : path_, fault, allowed), 0, 0);
@@ -75,7 +76,7 @@ std::optional<JsonNode> JsonNode::find(const char* key) const {
   if (!value_->is_object()) fail("is no object", "{...}");
   const auto found = value_->find(key);
   if (found == value_->end()) return std::nullopt;
-  return JsonNode(*found, path_.empty() ? key : fmt::format("{}.{}", path_, key));
+  return JsonNode(part(*found), path_.empty() ? key : fmt::format("{}.{}", path_, key));
 }
 
 JsonNode JsonNode::at(const char* key) const {
@@ -93,7 +94,7 @@ std::size_t JsonNode::size() const {
 
 JsonNode JsonNode::at(std::size_t index) const {
   if (index >= size()) fail(fmt::format("has {} elements", size()), fmt::format("more than {}", index));
-  return {(*value_)[index], fmt::format("{}[{}]", path_, index)};
+  return {part((*value_)[index]), fmt::format("{}[{}]", path_, index)};
 }
 
 const std::string& JsonNode::text() const {

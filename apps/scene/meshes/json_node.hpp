@@ -1,6 +1,7 @@
 // Values of an untrusted JSON file: each access checks the type, and errors state the place.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,11 +17,12 @@ inline constexpr std::size_t most_json_levels = 100;
 /// Parses a whole text. The tree needs up to 50 times its bytes. @throws MeshFileError with line and column
 [[nodiscard]] nlohmann::json parse_json_file(std::string_view text);
 
-/// A value with its path, such as accessors[3].count. The tree must outlive this.
+/// A value of a tree with its path, such as accessors[3].count.
 /// All members @throws MeshFileError "PATH is ..., allowed ...".
 class JsonNode {
  public:
-  JsonNode(const nlohmann::json& value, std::string path);
+  /// @param value not null; one within a tree shares the tree
+  JsonNode(std::shared_ptr<const nlohmann::json> value, std::string path);
 
   /// A member of an object; empty if there is none.
   [[nodiscard]] std::optional<JsonNode> find(const char* key) const;
@@ -41,7 +43,12 @@ class JsonNode {
   [[noreturn]] void fail(const std::string& fault, const std::string& allowed) const;
 
  private:
-  const nlohmann::json* value_;
+  /// A part of the value.
+  [[nodiscard]] std::shared_ptr<const nlohmann::json> part(const nlohmann::json& value) const {
+    return {value_, &value};
+  }
+
+  std::shared_ptr<const nlohmann::json> value_;
   std::string path_;
 };
 

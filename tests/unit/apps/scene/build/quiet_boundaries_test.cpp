@@ -59,7 +59,8 @@ class QuietScene {
   }
   [[nodiscard]] std::vector<QuietFaces> of_block(std::size_t block) const {
     Diagnostics faults;
-    return QuietBoundaries(loaded_->scene, loaded_->solids, settings_, faults).of_block(block);
+    const QuietBoundaries boundaries(loaded_->scene, loaded_->solids, settings_, faults);
+    return boundaries.of_block(loaded_->scene, loaded_->solids[block], block);
   }
   [[nodiscard]] const LoadedScene& loaded() const { return *loaded_; }
 
