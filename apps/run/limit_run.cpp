@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "apps/run/block_name.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
@@ -35,10 +36,6 @@ bool bolts_are_plastic(const Simulation& simulation) {
   });
 }
 
-std::string name_of(const Simulation& simulation, int block) {
-  return simulation.blocks()[static_cast<std::size_t>(block)].name();
-}
-
 Json array(const Vector3& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -48,13 +45,13 @@ void add_motion(Json& json, const LimitMotion& motion, const Simulation& simulat
   for (const char* key : {"moving", "accelerations", "angular_accelerations", "joints"})
     json[key] = Json::array();
   for (const LimitMotion::Block& block : motion.blocks) {
-    json["moving"].push_back(name_of(simulation, block.block));
+    json["moving"].push_back(block_name(simulation, block.block));
     json["accelerations"].push_back(array(block.acceleration));
     json["angular_accelerations"].push_back(array(block.angular_acceleration));
   }
   for (const MovingJoint& joint : motion.joints)
     json["joints"].push_back(
-        {{"blocks", Json{name_of(simulation, joint.blocks[0]), name_of(simulation, joint.blocks[1])}},
+        {{"blocks", Json{block_name(simulation, joint.blocks[0]), block_name(simulation, joint.blocks[1])}},
          {"mode", to_string(joint.motion)}});
 }
 
@@ -74,7 +71,7 @@ std::string names_of(const Simulation& simulation, const std::vector<int>& block
   const std::size_t named = std::min(blocks.size(), most_named);
   for (std::size_t k = 0; k < named; ++k) {
     const bool last = k + 1 == blocks.size();
-    text += fmt::format("{}{}", k == 0 ? "" : last ? " and " : ", ", name_of(simulation, blocks[k]));
+    text += fmt::format("{}{}", k == 0 ? "" : last ? " and " : ", ", block_name(simulation, blocks[k]));
   }
   if (named < blocks.size()) text += fmt::format(" and {} more", blocks.size() - named);
   return text;
@@ -121,7 +118,7 @@ std::string remarks(const LimitFindings& findings, const Simulation& simulation)
 
 Json names_in_json(const std::vector<int>& blocks, const Simulation& simulation) {
   Json json = Json::array();
-  for (const int block : blocks) json.push_back(name_of(simulation, block));
+  for (const int block : blocks) json.push_back(block_name(simulation, block));
   return json;
 }
 
@@ -132,7 +129,7 @@ std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
   const auto fastest = std::max_element(
       motion.blocks.begin(), motion.blocks.end(),
       [](const auto& x, const auto& y) { return x.acceleration.norm() < y.acceleration.norm(); });
-  const std::string first = name_of(simulation, fastest->block);
+  const std::string first = block_name(simulation, fastest->block);
   if (motion.blocks.size() == 1) return fmt::format("block {} {}", first, motion.mode);
   return fmt::format("{} blocks move, block {} fastest: it {}", motion.blocks.size(), first, motion.mode);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/results/text/atomic_file.hpp"
+#include "apps/run/block_name.hpp"
 #include "apps/run/drawing_view.hpp"
 #include "apps/scene/model/block_names.hpp"
 #include "geometry/index.hpp"
@@ -16,10 +17,6 @@ namespace ashlar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const std::string& name_of(const Simulation& simulation, int block) {
-  return simulation.blocks()[at(block)].name();
-}
 
 bool asks_for_movements(const Scene& scene) {
   return scene.analysis.type == SceneAnalysis::Type::thrust && !scene.analysis.movement.supports.empty();
@@ -65,13 +62,13 @@ Json to_json(const SupportPath& path, const Simulation& simulation) {
   json["joints"] = Json::array();
   for (const MovedJoint& joint : path.joints)
     json["joints"].push_back(
-        {{"blocks", Json{name_of(simulation, joint.blocks[0]), name_of(simulation, joint.blocks[1])}},
+        {{"blocks", Json{block_name(simulation, joint.blocks[0]), block_name(simulation, joint.blocks[1])}},
          {"place", Json{joint.place.x(), joint.place.y(), joint.place.z()}},
          {"rotation", joint.rotation * 180.0 / std::numbers::pi},
          {"slip", joint.slip},
          {"pressed", joint.pressed_on}});
   json["moving"] = Json::array();
-  for (const int block : path.moving) json["moving"].push_back(name_of(simulation, block));
+  for (const int block : path.moving) json["moving"].push_back(block_name(simulation, block));
   return json;
 }
 
@@ -133,7 +130,7 @@ std::string describe(const SupportMovement& movement, const Simulation& simulati
   const auto [out, in] = movement.away        ? std::pair("out", "in")
                          : movement.direction ? std::pair("along its direction", "against it")
                                               : std::pair("apart", "together");
-  return fmt::format("{} can move {}, {}{}", name_of(simulation, movement.support),
+  return fmt::format("{} can move {}, {}{}", block_name(simulation, movement.support),
                      path_in_words(movement.out, out), path_in_words(movement.in, in),
                      movement.left_out_strength ? ", by friction alone" : "");
 }

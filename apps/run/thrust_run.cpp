@@ -6,6 +6,7 @@
 #include <map>
 
 #include "apps/results/text/atomic_file.hpp"
+#include "apps/run/block_name.hpp"
 #include "apps/run/drawing_view.hpp"
 #include "apps/run/limit_run.hpp"
 #include "apps/run/movement_run.hpp"
@@ -15,10 +16,6 @@ namespace ashlar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const std::string& name_of(const Simulation& simulation, int block) {
-  return simulation.blocks()[static_cast<std::size_t>(block)].name();
-}
 
 ThrustLine line_of(const RigidModel& model, const ThrustState& state) {
   std::vector<Eigen::Vector3d> in_frames;
@@ -32,7 +29,7 @@ Json to_json(const ThrustLine& line, const Simulation& simulation) {
   Json json = Json::array();
   for (const JointResultant& joint : line.joints)
     json.push_back(
-        {{"blocks", Json{name_of(simulation, joint.blocks[0]), name_of(simulation, joint.blocks[1])}},
+        {{"blocks", Json{block_name(simulation, joint.blocks[0]), block_name(simulation, joint.blocks[1])}},
          {"place", array(joint.place)},
          {"force", array(joint.force)}});
   return json;
@@ -94,7 +91,7 @@ std::string describe(const ThrustFindings& findings, const Simulation& simulatio
   if (findings.supports.empty()) return "no thrust was found: forces in balance were not told from others";
   std::string text;
   for (const SupportThrust& support : findings.supports) {
-    text += fmt::format("{}thrust on {} ", text.empty() ? "" : "; ", name_of(simulation, support.support));
+    text += fmt::format("{}thrust on {} ", text.empty() ? "" : "; ", block_name(simulation, support.support));
     text += support.most
                 ? fmt::format("between {:.5g} and {:.5g} N", support.least.thrust, support.most->thrust)
                 : fmt::format("at least {:.5g} N, without bound above", support.least.thrust);
@@ -106,7 +103,7 @@ std::string describe(const ThrustFindings& findings, const Simulation& simulatio
 Json thrust_summary(const ThrustFindings& findings, const Simulation& simulation) {
   Json json = Json::array();
   for (const SupportThrust& support : findings.supports) {
-    Json one = {{"support", name_of(simulation, support.support)},
+    Json one = {{"support", block_name(simulation, support.support)},
                 {"least", support.least.thrust},
                 {"most", support.most ? Json(support.most->thrust) : Json(nullptr)},
                 {"gap", std::max(support.least.gap, support.most ? support.most->gap : 0.0)},

@@ -26,8 +26,6 @@ namespace ashlar {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // The bounds consist of polynomials of degree 4, and of quotients that are checked for underflow.
 constexpr int bounds_degree = 4;
 
@@ -121,7 +119,7 @@ class ClosestPointFinder::Surface {
   [[nodiscard]] std::vector<Candidate> near_triangles(const Vector3& x) const {
     std::vector<Candidate> candidates;
     candidates.reserve(16);
-    double best = infinity;
+    double best = std::numeric_limits<double>::infinity();
     const Box& all = tree_.nodes()[0].box;
     constexpr double error_units = 32.0 * TrackedNumber::unit_roundoff;
     const double error = error_units * (all.high - x).cwiseAbs().cwiseMax((all.low - x).cwiseAbs()).sum();

@@ -10,8 +10,6 @@ namespace ashlar {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 void bound(const Coordinate& x, const Coordinate& y, double& low, double& high) {
   low = std::min(least_value(x.tracked), least_value(y.tracked));
   high = std::max(greatest_value(x.tracked), greatest_value(y.tracked));
@@ -59,6 +57,7 @@ struct Outline {
     };
     for (const FlatSide& side : piece.sides) {
       const int from = add(side.from), to = add(side.to);
+      constexpr double infinity = std::numeric_limits<double>::infinity();
       sides.push_back({from, to, side.edge, -infinity, infinity, -infinity, infinity, {}, {}});
     }
     met.resize(corners.size());
@@ -153,7 +152,7 @@ bool is_inside(const Outline& face, const PlanePoint& x, const PlaneSigns& signs
 }
 
 // A part of a side between two neighbouring cuts, with its points of the outline.
-struct Piece {
+struct RimPiece {
   int start, end;
 };
 
@@ -175,7 +174,7 @@ class Overlay {
     for (Side& side : b_.sides) add_pieces(b_, side, a_, true);
     FlatOverlap result;
     Rational twice_area(0);
-    for (const Piece& piece : rim_) {
+    for (const RimPiece& piece : rim_) {
       const PlanePoint &p = points_[piece.start].place, &q = points_[piece.end].place;
       const PlanePoint& o = points_[rim_[0].start].place;
       twice_area += (p.u.exact - o.u.exact) * (q.v.exact - o.v.exact) -
@@ -183,7 +182,7 @@ class Overlay {
     }
     result.squared_area = twice_area * twice_area * projection_.squared_scale() / 4;
     std::vector<std::vector<int>> neighbours(points_.size());
-    for (const Piece& piece : rim_) {
+    for (const RimPiece& piece : rim_) {
       neighbours[piece.start].push_back(piece.end);
       neighbours[piece.end].push_back(piece.start);
     }
@@ -307,7 +306,7 @@ class Overlay {
   bool has_left_ = true;                        // A is a face
   std::map<std::array<int, 4>, int> point_of_;  // by the features of a point
   std::vector<RimPoint> points_;
-  std::vector<Piece> rim_;
+  std::vector<RimPiece> rim_;
   std::vector<FeaturePair> closure_;
 };
 

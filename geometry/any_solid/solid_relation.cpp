@@ -17,13 +17,13 @@ namespace ashlar {
 namespace {
 
 // One of the two solids, by its triangles.
-struct Surface {
+struct TriangulatedSurface {
   const SolidFeatures& features;
   const TriangleMesh& mesh;
   std::vector<ConvexShape> triangles;
   BoxTree tree;
 
-  explicit Surface(const SolidFeatures& solid)
+  explicit TriangulatedSurface(const SolidFeatures& solid)
       : features(solid), mesh(solid.solid().mesh()), tree(boxes_of(mesh)) {
     for (const auto& [i, j, k] : mesh.triangles)
       triangles.push_back(ConvexShape::from_triangle(mesh.points[i], mesh.points[j], mesh.points[k]));
@@ -88,7 +88,7 @@ class TrianglePairs {
     return is_inside(a_.mesh, any_point(b_.mesh)) || is_inside(b_.mesh, any_point(a_.mesh));
   }
 
-  Surface a_, b_;
+  TriangulatedSurface a_, b_;
   PredicateLadder ladder_;
   double least_ = std::numeric_limits<double>::infinity();
   bool touching_ = false;

@@ -7,14 +7,11 @@
 #include "geometry/any_solid/distance_minima.hpp"
 #include "geometry/any_solid/solid_relation.hpp"
 #include "geometry/exact/rounding_mode.hpp"
+#include "geometry/lexicographic.hpp"
 
 namespace ashlar {
 
 namespace {
-
-bool less(const Vector3& p, const Vector3& q) {
-  return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-}
 
 // Writes a minimum with the numbering of the report.
 class MinimumWriter {
@@ -35,7 +32,9 @@ class MinimumWriter {
     const double gap = round_square_root(squared.get_mpq_t());
     for (const MinimumPoint& p : minimum_.points) contact.points.push_back(point(p, contact.direction, gap));
     std::stable_sort(contact.points.begin(), contact.points.end(),
-                     [](const ReportedPoint& p, const ReportedPoint& q) { return less(p.point, q.point); });
+                     [](const ReportedPoint& p, const ReportedPoint& q) {
+                       return lexicographically_less(p.point, q.point);
+                     });
     return contact;
   }
 

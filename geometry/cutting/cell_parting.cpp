@@ -14,7 +14,7 @@ namespace ashlar {
 namespace {
 
 /// Faces, with true if the cell is below each.
-using Surface = std::vector<std::pair<int, bool>>;
+using CellSurface = std::vector<std::pair<int, bool>>;
 
 class CellParting {
  public:
@@ -74,7 +74,7 @@ class CellParting {
   }
 
   /// Faces belong together if the cell is between them.
-  [[nodiscard]] std::vector<Surface> connected(const Surface& surface) const {
+  [[nodiscard]] std::vector<CellSurface> connected(const CellSurface& surface) const {
     UnionFind united(surface.size());
     for_each_edge(fan_sides(complex_, surface), [&](const std::vector<FanSide>& around) {
       if (around.size() == 2) {
@@ -86,18 +86,18 @@ class CellParting {
       for (std::size_t k = 0; k < sides.size(); ++k)
         if (sides[k].ahead) united.unite(sides[k].face, sides[(k + 1) % sides.size()].face);
     });
-    std::map<int, Surface> of_root;
+    std::map<int, CellSurface> of_root;
     for (std::size_t k = 0; k < surface.size(); ++k)
       of_root[united.find(static_cast<int>(k))].push_back(surface[k]);
-    std::vector<Surface> result;
+    std::vector<CellSurface> result;
     result.reserve(of_root.size());
     for (auto& [root, faces] : of_root) result.push_back(std::move(faces));
     return result;
   }
 
-  [[nodiscard]] std::vector<int> make_cells(const Surface& surface, bool keeps) {
+  [[nodiscard]] std::vector<int> make_cells(const CellSurface& surface, bool keeps) {
     std::vector<int> cells;
-    for (const Surface& faces : connected(surface)) {
+    for (const CellSurface& faces : connected(surface)) {
       cells.push_back(keeps && cells.empty() ? cell_ : complex_.add_cell(false));
       complex_.set_faces(cells.back(), faces);
     }
@@ -106,7 +106,7 @@ class CellParting {
 
   CellComplex& complex_;
   int cell_, plane_, mark_;
-  std::array<Surface, 2> surface_;  ///< below and above the plane
+  std::array<CellSurface, 2> surface_;  ///< below and above the plane
 };
 
 }  // namespace

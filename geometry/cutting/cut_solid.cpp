@@ -19,19 +19,15 @@
 #include "geometry/union_find.hpp"
 
 namespace ashlar {
-namespace {
-
-struct Piece {
-  std::vector<int> cells;  ///< empty: the piece does not exist any more
-  Box box;
-  int label = 0;
-  int next = -1;  ///< in order
-};
-
-}  // namespace
-
 // Not inlined where the rounding mode changes: State does the work, CutSolid guards it.
 struct CutSolid::State {
+  struct Piece {
+    std::vector<int> cells;  ///< empty: the piece does not exist any more
+    Box box;
+    int label = 0;
+    int next = -1;  ///< in order
+  };
+
   CellComplex complex;
   std::vector<Piece> pieces;
   std::vector<int> piece_of;  ///< by cell

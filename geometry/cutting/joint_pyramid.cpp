@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/exact/number_triple.hpp"
+
 namespace ashlar {
 namespace {
-
-IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
-  return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]),
-          Integer(a[0] * b[1] - a[1] * b[0])};
-}
-
-Integer dot(const IntegerVector& a, const IntegerVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 bool is_zero(const IntegerVector& a) {
   return sgn(a[0]) == 0 && sgn(a[1]) == 0 && sgn(a[2]) == 0;

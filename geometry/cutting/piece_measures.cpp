@@ -3,31 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/exact/number_triple.hpp"
+
 namespace ashlar {
 namespace {
 
 constexpr int fixed_bits = 240;
 
-template <class Number>
-using Triple = std::array<Number, 3>;
-
-template <class Number>
-Triple<Number> minus(const Triple<Number>& a, const Triple<Number>& b) {
-  return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
-}
-
-template <class Number>
-Triple<Number> cross(const Triple<Number>& a, const Triple<Number>& b) {
-  return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]),
-          Number(a[0] * b[1] - a[1] * b[0])};
-}
-
-template <class Number>
-Number dot(const Triple<Number>& a, const Triple<Number>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Triple<Rational> fraction(const CellComplex& complex, int point) {
+NumberTriple<Rational> fraction(const CellComplex& complex, int point) {
   const auto [x, y, z] = complex.point(point).place.rational();
   return {x, y, z};
 }
@@ -35,15 +18,15 @@ Triple<Rational> fraction(const CellComplex& complex, int point) {
 /// Six times the volume, as seen from a point. @param place of a point
 template <class Number, class Place>
 Number six_volumes(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces, Place place) {
-  const Triple<Number> origin = place(complex.face(faces.front().first).points.front());
+  const NumberTriple<Number> origin = place(complex.face(faces.front().first).points.front());
   Number sum = 0;
   for (const auto& [index, below] : faces) {
     Number of_face = 0;
     for (const std::span<const int> loop : loops_of(complex.face(index))) {
-      const Triple<Number> apex = minus(place(loop[0]), origin);
-      Triple<Number> last = minus(place(loop[1]), origin);
+      const NumberTriple<Number> apex = minus(place(loop[0]), origin);
+      NumberTriple<Number> last = minus(place(loop[1]), origin);
       for (std::size_t k = 2; k < loop.size(); ++k) {
-        Triple<Number> next = minus(place(loop[k]), origin);
+        NumberTriple<Number> next = minus(place(loop[k]), origin);
         of_face += dot(apex, cross(last, next));
         last = std::move(next);
       }
@@ -58,14 +41,14 @@ Number six_volumes(const CellComplex& complex, const std::vector<std::pair<int, 
 
 /// Twice the area, along the normal.
 template <class Number, class Place>
-Triple<Number> two_areas(const CellComplex& complex, const std::vector<int>& faces, Place place) {
-  Triple<Number> sum = {0, 0, 0};
+NumberTriple<Number> two_areas(const CellComplex& complex, const std::vector<int>& faces, Place place) {
+  NumberTriple<Number> sum = {0, 0, 0};
   for (const int index : faces) {
     for (const std::span<const int> loop : loops_of(complex.face(index))) {
-      const Triple<Number> apex = place(loop[0]);
+      const NumberTriple<Number> apex = place(loop[0]);
       for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-        const auto part = cross(minus(Triple<Number>(place(loop[k])), apex),
-                                minus(Triple<Number>(place(loop[k + 1])), apex));
+        const auto part = cross(minus(NumberTriple<Number>(place(loop[k])), apex),
+                                minus(NumberTriple<Number>(place(loop[k + 1])), apex));
         for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += part[axis];
       }
     }
@@ -139,7 +122,7 @@ double PieceMeasures::volume(const std::vector<std::pair<int, bool>>& faces) {
 // (D + 1); the error of the length of a vector is less than twice that of its components.
 double PieceMeasures::area(const std::vector<int>& faces) {
   const auto place = [&](int point) -> const FixedPoint& { return fixed(point); };
-  const Triple<Integer> sum = two_areas<Integer>(complex_, faces, place);
+  const NumberTriple<Integer> sum = two_areas<Integer>(complex_, faces, place);
   Integer widest = 0, triangles = 0;
   for (const int index : faces) {
     const std::vector<int>& loop = complex_.face(index).points;
@@ -152,7 +135,7 @@ double PieceMeasures::area(const std::vector<int>& faces) {
   const double low = rounded(scaled(length - error, 2, 2 * shift_));
   if (low == rounded(scaled(length + error, 2, 2 * shift_))) return low;
   const auto exact = [&](int point) { return fraction(complex_, point); };
-  const Triple<Rational> whole = two_areas<Rational>(complex_, faces, exact);
+  const NumberTriple<Rational> whole = two_areas<Rational>(complex_, faces, exact);
   Rational squared = dot(whole, whole) / 4;
   squared.canonicalize();
   return round_square_root(squared.get_mpq_t());

@@ -12,6 +12,7 @@
 #include "geometry/cutting/flat_view.hpp"
 #include "geometry/cutting/loop_triangulation.hpp"
 #include "geometry/cutting/plane_regions.hpp"
+#include "geometry/lexicographic.hpp"
 #include "geometry/solid/solid_location.hpp"
 #include "geometry/union_find.hpp"
 
@@ -274,9 +275,8 @@ std::vector<int> merge_points(const CellComplex& complex, double resolution) {
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   const auto place = [&](int point) -> const Vector3& { return complex.point(point).place.rounded; };
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::lexicographical_compare(place(a).begin(), place(a).end(), place(b).begin(), place(b).end());
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return lexicographically_less(place(a), place(b)); });
   UnionFind merged(count);
   // Runs of points whose first coordinates are consecutive within the resolution, of these runs by the second, and
   // neighbours by the third: points on grids have many equal coordinates.

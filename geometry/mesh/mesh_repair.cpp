@@ -116,10 +116,10 @@ struct EdgeSide {
   int apex;
 };
 
-using EdgeSides = std::map<std::pair<int, int>, std::vector<EdgeSide>>;
+using SidesByEdge = std::map<std::pair<int, int>, std::vector<EdgeSide>>;
 
-EdgeSides sides_of_edges(const TriangleMesh& mesh) {
-  EdgeSides edges;
+SidesByEdge sides_of_edges(const TriangleMesh& mesh) {
+  SidesByEdge edges;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3],

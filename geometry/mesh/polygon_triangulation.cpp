@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "geometry/lexicographic.hpp"
+
 namespace ashlar {
 namespace {
 
-using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
+using FlatPoint = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
 
 // The remaining corners form a ring; those of them that are not strictly convex, the only ones that can lie in an
 // ear, form a second list.
@@ -30,7 +32,7 @@ class EarClipper {
     const int count = static_cast<int>(corners.size());
     for (int i = 0; i < count; ++i) {
       const int c = corners[i];
-      ring_.push_back({c, Point(points[c][u], points[c][v]), (i + count - 1) % count, (i + 1) % count});
+      ring_.push_back({c, FlatPoint(points[c][u], points[c][v]), (i + count - 1) % count, (i + 1) % count});
     }
     for (int i = 0; i < count; ++i) mark(i);
   }
@@ -62,7 +64,7 @@ class EarClipper {
  private:
   struct Corner {
     int corner;
-    Point place;
+    FlatPoint place;
     int before;
     int next;
     bool convex = true;  // strictly
@@ -109,13 +111,13 @@ class EarClipper {
 
   [[nodiscard]] bool is_ear(int i) {
     if (!ring_[i].convex) return false;
-    const Point& a = ring_[ring_[i].before].place;
-    const Point& b = ring_[i].place;
-    const Point& c = ring_[ring_[i].next].place;
+    const FlatPoint& a = ring_[ring_[i].before].place;
+    const FlatPoint& b = ring_[i].place;
+    const FlatPoint& c = ring_[ring_[i].next].place;
     for (int k = first_not_convex_; k != none; k = ring_[k].next_not_convex) {
       if (tests_left_ == 0) throw std::length_error("polygons with too many corners");
       --tests_left_;
-      const Point& p = ring_[k].place;
+      const FlatPoint& p = ring_[k].place;
       if (p != a && p != b && p != c && CGAL::orientation(a, b, p) != CGAL::CLOCKWISE &&
           CGAL::orientation(b, c, p) != CGAL::CLOCKWISE && CGAL::orientation(c, a, p) != CGAL::CLOCKWISE)
         return false;
@@ -131,10 +133,6 @@ class EarClipper {
   int first_not_convex_ = none;
   std::size_t& tests_left_;
 };
-
-bool less(const Vector3& x, const Vector3& y) {
-  return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
-}
 
 /// A ring of corners read from one of them, forwards or backwards.
 class Reading {
@@ -158,7 +156,7 @@ class Reading {
         ++common;
         continue;
       }
-      (less(y, x) ? best : other) += common + 1;
+      (lexicographically_less(y, x) ? best : other) += common + 1;
       if (best == other) ++other;
       common = 0;
     }
@@ -168,7 +166,7 @@ class Reading {
     for (std::size_t k = 0; k < ring_.size(); ++k) {
       const Vector3& x = points_[corner(k)];
       const Vector3& y = points_[reading.corner(k)];
-      if (x != y) return less(x, y);
+      if (x != y) return lexicographically_less(x, y);
     }
     return false;
   }

@@ -17,7 +17,7 @@ namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using CgalSurface = CGAL::Surface_mesh<Kernel::Point_3>;
 
 // Most edges of a hole: covering a complex one needs cubic time.
 constexpr std::size_t most_hole_edges = 1000;
@@ -36,18 +36,18 @@ Soup soup_of(const TriangleMesh& mesh) {
   return soup;
 }
 
-TriangleMesh mesh_of(const Surface& surface) {
+TriangleMesh mesh_of(const CgalSurface& surface) {
   TriangleMesh mesh;
   std::vector<int> place(surface.num_vertices() + surface.number_of_removed_vertices(), -1);
-  for (const Surface::Vertex_index vertex : surface.vertices()) {
+  for (const CgalSurface::Vertex_index vertex : surface.vertices()) {
     place[vertex.idx()] = static_cast<int>(mesh.points.size());
     const Kernel::Point_3& point = surface.point(vertex);
     mesh.points.emplace_back(point.x(), point.y(), point.z());
   }
-  for (const Surface::Face_index face : surface.faces()) {
+  for (const CgalSurface::Face_index face : surface.faces()) {
     std::array<int, 3> corners{};
     std::size_t k = 0;
-    for (const Surface::Vertex_index vertex : surface.vertices_around_face(surface.halfedge(face)))
+    for (const CgalSurface::Vertex_index vertex : surface.vertices_around_face(surface.halfedge(face)))
       corners[k++] = place[vertex.idx()];
     mesh.triangles.push_back(corners);
   }
@@ -62,12 +62,12 @@ SurfaceRepair repair_surface(TriangleMesh& mesh) {
   PMP::repair_polygon_soup(soup.points, soup.triangles);
   repair.removed = mesh.triangles.size() - soup.triangles.size();
   PMP::orient_polygon_soup(soup.points, soup.triangles);
-  Surface surface;
+  CgalSurface surface;
   PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
-  std::vector<Surface::Halfedge_index> holes;
+  std::vector<CgalSurface::Halfedge_index> holes;
   PMP::extract_boundary_cycles(surface, std::back_inserter(holes));
-  for (const Surface::Halfedge_index hole : holes) {
-    std::vector<Surface::Face_index> added;
+  for (const CgalSurface::Halfedge_index hole : holes) {
+    std::vector<CgalSurface::Face_index> added;
     if (CGAL::halfedges_around_face(hole, surface).size() > most_hole_edges) {
       repair.complete = false;
       continue;

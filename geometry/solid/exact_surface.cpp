@@ -11,6 +11,7 @@
 
 #include "geometry/exact/direction_predicates.hpp"
 #include "geometry/exact/exact_rounding.hpp"
+#include "geometry/exact/number_triple.hpp"
 #include "geometry/exact/rounding_mode.hpp"
 
 namespace ashlar {
@@ -18,7 +19,7 @@ namespace {
 
 // Integer times a power of two: sums and products of doubles without rounding and without overflow.
 using Exact = CGAL::Mpzf;
-using ExactVector = std::array<Exact, 3>;
+using ExactVector = NumberTriple<Exact>;
 
 // The same with the constructors of the filters' number types.
 // NOLINTNEXTLINE(bugprone-exception-escape): CGAL declares its moves noexcept although they may allocate
@@ -36,10 +37,6 @@ ExactVector exact(const Vector3& p) {
 
 ExactVector operator-(const ExactVector& a, const ExactVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-ExactVector cross(const ExactVector& a, const ExactVector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 // NOLINTEND(clang-analyzer-cplusplus.NewDeleteLeaks)

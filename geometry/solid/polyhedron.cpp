@@ -12,6 +12,7 @@
 
 #include "geometry/exact/direction_predicates.hpp"
 #include "geometry/exact/rounding_mode.hpp"
+#include "geometry/lexicographic.hpp"
 #include "geometry/solid/exact_surface.hpp"
 #include "geometry/solid/flat_regions.hpp"
 #include "geometry/solid/half_edges.hpp"
@@ -211,9 +212,7 @@ class FaceBuilder {
   // would divide the face.
   void move_outer_loop_to_front(std::vector<std::vector<int>>& loops) const {
     const auto less = [this](int u, int v) {
-      const Vector3& p = mesh_.points[u];
-      const Vector3& q = mesh_.points[v];
-      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+      return lexicographically_less(mesh_.points[u], mesh_.points[v]);
     };
     std::pair<int, int> extremes(loops[0][0], loops[0][0]);
     for (const auto& loop : loops) {

@@ -13,17 +13,11 @@
 namespace ashlar {
 namespace {
 
-using Side = std::pair<int, int>;
-
-Side sorted(int a, int b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 /// Splits every triangle into four; shared sides get one midpoint.
 void split(std::vector<Vector3>& points, std::vector<SurfaceCell>& cells) {
-  std::map<Side, int> midpoints;
+  std::map<std::pair<int, int>, int> midpoints;
   const auto midpoint = [&](int a, int b) {
-    const auto [place, added] = midpoints.try_emplace(sorted(a, b), static_cast<int>(points.size()));
+    const auto [place, added] = midpoints.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
     if (added) points.emplace_back(0.5 * (points[at(a)] + points[at(b)]));
     return place->second;
   };
@@ -208,10 +202,10 @@ void take_edges_of_polyhedron(const Polyhedron& solid, SubFaceSurface& surface) 
 SubFaceSurface whole_surface(const Polyhedron& solid) {
   SubFaceSurface surface;
   surface.points = solid.mesh().points;
-  std::map<Side, int> edge_of_side;
+  std::map<std::pair<int, int>, int> edge_of_side;
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const auto& [start, end] = solid.edges()[e].vertices;
-    edge_of_side[sorted(start, end)] = static_cast<int>(e);
+    edge_of_side[std::minmax(start, end)] = static_cast<int>(e);
   }
   const std::vector<int> rims = edges_of_half_edges(solid);
   for (std::size_t f = 0; f < solid.faces().size(); ++f) {
@@ -223,7 +217,7 @@ SubFaceSurface whole_surface(const Polyhedron& solid) {
     const auto& loop = face.loops.front();
     SurfaceCell cell{static_cast<int>(f), loop, {}};
     for (std::size_t k = 0; k < loop.size(); ++k)
-      cell.rim.push_back(edge_of_side.at(sorted(loop[k], loop[(k + 1) % loop.size()])));
+      cell.rim.push_back(edge_of_side.at(std::minmax(loop[k], loop[(k + 1) % loop.size()])));
     surface.cells.push_back(std::move(cell));
   }
   find_cells_at_points(surface);

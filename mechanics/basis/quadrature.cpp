@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "mechanics/basis/plane_cross.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -98,10 +100,6 @@ SegmentRule radau_for_triangles(int count) {
 }
 
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 using Corners = std::vector<Eigen::Vector2d>;
 

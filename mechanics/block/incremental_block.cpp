@@ -4,12 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mechanics/material/symmetric_components.hpp"
+
 namespace ashlar {
 namespace {
-
-/// (row, column) of each of the six components.
-constexpr std::array<std::array<int, 2>, 6> components = {
-    {{{0, 0}}, {{1, 1}}, {{2, 2}}, {{0, 1}}, {{1, 2}}, {{0, 2}}}};
 
 std::array<double, 3> key_of(const Vector3& point) {
   return {point.x(), point.y(), point.z()};
@@ -96,7 +94,7 @@ Eigen::MatrixXd added_stress(const PolynomialBasis& basis, const Material& mater
   Eigen::MatrixXd stress(basis.size(), 6);
   const Eigen::VectorXd trace = gradients[0].col(0) + gradients[1].col(1) + gradients[2].col(2);
   for (Eigen::Index k = 0; k < 6; ++k) {
-    const auto& [i, j] = components[static_cast<std::size_t>(k)];
+    const auto& [i, j] = symmetric_components[static_cast<std::size_t>(k)];
     stress.col(k) = material.lame_mu() * (gradients[static_cast<std::size_t>(i)].col(j) +
                                           gradients[static_cast<std::size_t>(j)].col(i));
     if (i == j) stress.col(k) += material.lame_lambda() * trace;
@@ -112,7 +110,7 @@ ElasticResponse incremental_response(const PolynomialBasis& basis, const Materia
   response.force = Eigen::MatrixX3d::Zero(basis.size(), 3);
   double squares = 0.0;
   for (Eigen::Index k = 0; k < 6; ++k) {
-    const auto& [i, j] = components[static_cast<std::size_t>(k)];
+    const auto& [i, j] = symmetric_components[static_cast<std::size_t>(k)];
     response.force.col(j).noalias() += basis.derivative(i) * total.col(k);
     if (i != j) response.force.col(i).noalias() += basis.derivative(j) * total.col(k);
     squares += (i == j ? 1.0 : 2.0) * total.col(k).squaredNorm();
@@ -128,7 +126,7 @@ Eigen::Matrix3d incremental_stress(const Eigen::MatrixXd& stress, const Eigen::V
   const Eigen::VectorXd there = stress.transpose() * values;
   Eigen::Matrix3d result;
   for (Eigen::Index k = 0; k < 6; ++k) {
-    const auto& [i, j] = components[static_cast<std::size_t>(k)];
+    const auto& [i, j] = symmetric_components[static_cast<std::size_t>(k)];
     result(i, j) = result(j, i) = there[k];
   }
   return result;

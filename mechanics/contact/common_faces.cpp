@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/basis/plane_cross.hpp"
 #include "mechanics/supports/face_selection.hpp"
 
 namespace ashlar {
@@ -13,12 +14,8 @@ constexpr double opposite_tolerance = 1e-6;
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
-double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
-  return u.x() * v.y() - u.y() * v.x();
-}
-
 /// The part of a convex polygon to the left of a line. Parts of the edge due to rounding have negligible area.
-Polygon left_of(const Polygon& polygon, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+Polygon clip_to_left(const Polygon& polygon, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   Polygon result;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Eigen::Vector2d& p = polygon[k];
@@ -52,7 +49,7 @@ void add_common(const Polyhedron& a, int index_a, const Polyhedron& b, int index
       // Seen from outside of a, triangles of b run clockwise.
       std::reverse(common.begin(), common.end());
       for (std::size_t k = 0; k < 3 && common.size() >= 3; ++k)
-        common = left_of(common, of_a[k], of_a[(k + 1) % 3]);
+        common = clip_to_left(common, of_a[k], of_a[(k + 1) % 3]);
       if (common.size() < 3) continue;
       result.push_back({index_a, index_b, frame, std::move(common)});
     }

@@ -16,7 +16,7 @@ double largest_area_of(const std::vector<ContactMemory::Entry>& entries) {
   return largest;
 }
 
-double area_of(const std::vector<ContactMemory::Entry>& entries) {
+double area_of_entries(const std::vector<ContactMemory::Entry>& entries) {
   return std::accumulate(entries.begin(), entries.end(), 0.0,
                          [](double sum, const ContactMemory::Entry& entry) { return sum + entry.area; });
 }
@@ -87,7 +87,7 @@ ContactMemory::ContactMemory(std::vector<Entry> entries, std::vector<PressureCut
       deepest_(deepest),
       bulge_(bulge),
       held_(held),
-      squared_reach_(area_of(entries_)),
+      squared_reach_(area_of_entries(entries_)),
       largest_area_(largest_area_of(entries_)),
       most_dilation_(most_dilation_of(entries_)) {}
 
@@ -240,7 +240,7 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
   deepest_ = deepest;
   bulge_ = bulge;
   held_ = held;
-  squared_reach_ = area_of(entries_);
+  squared_reach_ = area_of_entries(entries_);
   largest_area_ = largest_area_of(entries_);
   most_dilation_ = most_dilation_of(entries_);
 }

@@ -12,14 +12,6 @@
 namespace ashlar {
 namespace {
 
-const SurfaceCell& cell_of(const ContactBody& body, int cell) {
-  return body.placed->surface().cells[at(cell)];
-}
-
-const Vector3& reference_point(const ContactBody& body, int point) {
-  return body.placed->surface().points[at(point)];
-}
-
 /// A remembered cut in the frame of an overlap.
 PressureEnd seen(const PressureCut& cut, const OverlapPoints& make) {
   const Eigen::Vector2d start = make.place(cut.of_a, cut.start);

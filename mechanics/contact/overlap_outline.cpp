@@ -6,15 +6,12 @@
 #include <numbers>
 
 #include "geometry/index.hpp"
+#include "mechanics/basis/plane_cross.hpp"
 
 namespace ashlar {
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
-
-double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
-  return u.x() * v.y() - u.y() * v.x();
-}
 
 double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& start,
                            const Eigen::Vector2d& end) {

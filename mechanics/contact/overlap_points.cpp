@@ -14,14 +14,6 @@ namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
 
-const SurfaceCell& cell_of(const ContactBody& body, int cell) {
-  return body.placed->surface().cells[at(cell)];
-}
-
-const Vector3& reference_point(const ContactBody& body, int point) {
-  return body.placed->surface().points[at(point)];
-}
-
 const PolyhedronFace& face_of(const ContactBody& body, int cell) {
   return body.model->solid().faces()[at(cell_of(body, cell).face)];
 }

@@ -9,9 +9,20 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/index.hpp"
 #include "mechanics/contact/contact_points.hpp"
 
 namespace ashlar {
+
+/// @param cell index into the cells of the body's surface
+[[nodiscard]] inline const SurfaceCell& cell_of(const ContactBody& body, int cell) {
+  return body.placed->surface().cells[at(cell)];
+}
+
+/// @param point index into the points of the body's surface. @return its place in the reference configuration
+[[nodiscard]] inline const Vector3& reference_point(const ContactBody& body, int point) {
+  return body.placed->surface().points[at(point)];
+}
 
 /// The affine map from projected places to reference points of a flat cell.
 class CellMap {

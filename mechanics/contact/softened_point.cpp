@@ -157,13 +157,13 @@ double loading_force(const PointLaw& law, double gap, double damage) {
 }
 
 /// Mean normal force over a step and its slope.
-struct MeanNormal {
+struct SoftenedNormal {
   double force = 0.0;  ///< N
   double slope = 0.0;  ///< -d force / d end gap, N/m; negative on the envelope
 };
 
 /// The force is linear between the gaps where it has kinks, so that its mean is that of trapezoids.
-MeanNormal mean_normal(const PointLaw& law, double start, double end, double damage) {
+SoftenedNormal softened_normal(const PointLaw& law, double start, double end, double damage) {
   const auto [low, high] = std::minmax(start, end);
   const std::array<double, 3> kinks = {0.0, law.bond.opening(damage), law.bond.end_opening};
   double sum = 0.0;
@@ -243,13 +243,13 @@ AveragedStep softened_step(const PointLaw& law, const PointResponse& start,
   const double stiffness = 0.5 * law.shear_stiffness;
   const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
   const double length = trial.norm();
-  MeanNormal normal = mean_normal(law, start_gap, end_gap, bond.start);
+  SoftenedNormal normal = softened_normal(law, start_gap, end_gap, bond.start);
   const double resistance = law.friction * std::max(normal.force, 0.0);
   const double cohesion = bond.cohesion * cohesive_share(law, start_gap, end_gap);
   MeanLimit limit{law.held_limit, 0.0, 0.0, 0.0, 0.0};
   if (law.held_limit < 0.0) limit = mean_limit(law, length, resistance, cohesion);
   const double after_slip = bond.start + limit.growth;
-  if (limit.growth > 0.0) normal = mean_normal(law, start_gap, end_gap, after_slip);
+  if (limit.growth > 0.0) normal = softened_normal(law, start_gap, end_gap, after_slip);
 
   AveragedStep step{{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0},
                     {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, limit.value}};

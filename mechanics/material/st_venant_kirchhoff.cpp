@@ -6,12 +6,10 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/basis/quadrature.hpp"
+#include "mechanics/material/symmetric_components.hpp"
 
 namespace ashlar {
 namespace {
-
-/// Places in Tensor of the components J, K.
-constexpr std::array<std::array<int, 2>, 6> components = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
 /// Multiplicity of a component in a double sum over J and K.
 double multiplicity(std::size_t c) {
@@ -62,8 +60,8 @@ std::array<Eigen::MatrixX3d, 3> StVenantKirchhoff::deformation(const Eigen::Matr
 
 StVenantKirchhoff::Tensor StVenantKirchhoff::strain(const std::array<Eigen::MatrixX3d, 3>& f) const {
   Tensor result;
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    const auto [j, k] = components[c];
+  for (std::size_t c = 0; c < symmetric_components.size(); ++c) {
+    const auto [j, k] = symmetric_components[c];
     Eigen::VectorXd values = 0.5 * f[at(j)].cwiseProduct(f[at(k)]).rowwise().sum();
     if (j == k) values.array() -= 0.5;
     result[c].noalias() = to_coefficients_ * values;
@@ -74,7 +72,7 @@ StVenantKirchhoff::Tensor StVenantKirchhoff::strain(const std::array<Eigen::Matr
 StVenantKirchhoff::Tensor StVenantKirchhoff::weighted_stress(const Tensor& strain) const {
   const Eigen::VectorXd trace = strain[0] + strain[1] + strain[2];
   Tensor result;
-  for (std::size_t c = 0; c < components.size(); ++c) {
+  for (std::size_t c = 0; c < symmetric_components.size(); ++c) {
     Eigen::VectorXd stress = 2.0 * mu_ * strain[c];
     if (c < 3) stress += lambda_ * trace;
     result[c].noalias() = to_coefficients_.transpose() * stress;
@@ -91,8 +89,8 @@ ElasticResponse StVenantKirchhoff::respond(const Eigen::MatrixX3d& coefficients)
   response.energy = 0.5 * lambda_ * (e[0] + e[1] + e[2]).squaredNorm();
   std::array<Eigen::MatrixX3d, 3> flux;  // sum over J of S_JK F_iJ
   for (auto& part : flux) part.setZero(f[0].rows(), 3);
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    const auto [j, k] = components[c];
+  for (std::size_t c = 0; c < symmetric_components.size(); ++c) {
+    const auto [j, k] = symmetric_components[c];
     response.energy += multiplicity(c) * mu_ * e[c].squaredNorm();
     flux[at(k)] += s[c].asDiagonal() * f[at(j)];
     if (j != k) flux[at(j)] += s[c].asDiagonal() * f[at(k)];
@@ -110,8 +108,8 @@ Eigen::MatrixXd StVenantKirchhoff::tangent(const Eigen::MatrixX3d& coefficients,
   Eigen::MatrixXd trace = Eigen::MatrixXd::Zero(f[0].rows(), 3 * p);
   Eigen::MatrixXd change(f[0].rows(), 3 * p);  // of E_JK at the points with q
   Eigen::MatrixXd spectrum(f[0].rows(), 3 * p);
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    const auto [j, k] = components[c];
+  for (std::size_t c = 0; c < symmetric_components.size(); ++c) {
+    const auto [j, k] = symmetric_components[c];
     for (Eigen::Index i = 0; i < 3; ++i) {
       change.middleCols(i * p, p) = 0.5 * (f[at(j)].col(i).asDiagonal() * gradients_[at(k)]);
       change.middleCols(i * p, p) += 0.5 * (f[at(k)].col(i).asDiagonal() * gradients_[at(j)]);
@@ -125,8 +123,8 @@ Eigen::MatrixXd StVenantKirchhoff::tangent(const Eigen::MatrixX3d& coefficients,
   if (without_stress) return result;
   const Tensor s = weighted_stress(strain(f));
   Eigen::MatrixXd geometric = Eigen::MatrixXd::Zero(p, p);
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    const auto [j, k] = components[c];
+  for (std::size_t c = 0; c < symmetric_components.size(); ++c) {
+    const auto [j, k] = symmetric_components[c];
     const Eigen::MatrixXd part = gradients_[at(j)].transpose() * s[c].asDiagonal() * gradients_[at(k)];
     geometric += j == k ? part : Eigen::MatrixXd(part + part.transpose());
   }

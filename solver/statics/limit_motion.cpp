@@ -23,7 +23,7 @@ struct Joint {
   double normal = 0.0, slid = 0.0, opened = 0.0;
   Vector3 direction = Vector3::Zero();
 };
-using Joints = std::map<PairKey, Joint>;
+using JointsByPair = std::map<PairKey, Joint>;
 
 class Setting {
  public:
@@ -42,7 +42,7 @@ class Setting {
     motion.bars = bar_forces(model_, trial_.force);
     if (fastest_ == 0.0) return motion;
     note_blocks(motion);
-    const Joints joints = joints_seen();
+    const JointsByPair joints = joints_seen();
     note_joints(joints, motion);
     motion.mode = mode(planes(joints, motion));
     return motion;
@@ -66,8 +66,8 @@ class Setting {
               [](const LimitMotion::Block& x, const LimitMotion::Block& y) { return x.block < y.block; });
   }
 
-  [[nodiscard]] Joints joints_seen() const {
-    Joints seen;
+  [[nodiscard]] JointsByPair joints_seen() const {
+    JointsByPair seen;
     for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
       const auto [a, b] = model_.pairs[n].bodies;
       if (!(a >= 0 && moves_[at(a)]) && !(b >= 0 && moves_[at(b)])) continue;
@@ -87,7 +87,7 @@ class Setting {
   }
 
   /// Blocks with sticking joints move as one.
-  void note_joints(const Joints& joints, LimitMotion& motion) {
+  void note_joints(const JointsByPair& joints, LimitMotion& motion) {
     double load = 0.0;
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       if (moves_[b])
@@ -109,7 +109,7 @@ class Setting {
   }
 
   /// Directions of the planes on which the blocks moving with the fastest body slide.
-  [[nodiscard]] std::size_t planes(const Joints& joints, const LimitMotion& motion) {
+  [[nodiscard]] std::size_t planes(const JointsByPair& joints, const LimitMotion& motion) {
     constexpr double parallel = 0.999;
     std::vector<Vector3> planes;
     for (const MovingJoint& joint : motion.joints) {

@@ -21,7 +21,7 @@ constexpr int polished = 4;
 /// Relative to the motion: its remaining share at the end, and the ratio of changes above which the limit is unknown.
 constexpr double left_over = 0.8, slow_ratio = 0.9;
 /// Relative to the loads: smaller motion is rest.
-constexpr double at_rest = 1e-4;
+constexpr double resting_motion = 1e-4;
 constexpr int first_check = 64, most_sweeps = 4096;
 /// Total number of updates of points: large models get fewer sweeps.
 constexpr double most_updates = 1e7;
@@ -183,7 +183,7 @@ ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<do
     for (; found.iterations < std::min(check, last); ++found.iterations)
       sweeps.sweep(found.iterations % 2 == 0);
     const double motion = largest_motion(sweeps.velocity(), load, program.loaded_bodies());
-    if (motion < at_rest) {
+    if (motion < resting_motion) {
       found.outcome = LimitOutcome::stands;
       break;
     }

@@ -7,7 +7,7 @@
 namespace ashlar {
 namespace {
 
-constexpr int most_programmes = 60;
+constexpr int most_slip_programmes = 60;
 /// Differences of successive directions of slip: converged, and nearly converged.
 constexpr double same = 1e-3, alike = 0.1;
 /// Relative to the growth: remaining change that leaves its sign certain.
@@ -83,7 +83,7 @@ ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilati
     found.outcome = LimitOutcome::stands;
     return found;
   }
-  for (int n = 0; n < most_programmes; ++n) {
+  for (int n = 0; n < most_slip_programmes; ++n) {
     shift /= shift.maxCoeff();
     question.shift.assign(shift.begin(), shift.end());
     ConeAnswer answer = asked(program, question, found);

@@ -26,7 +26,7 @@ struct PathLengths {
   double closed = 1e-4 * reach;        ///< m, motion below which closing of gaps ends
 };
 constexpr int most_closings = 30;
-constexpr int most_unknown = 10;  ///< undetermined steps within the tolerance
+constexpr int most_unknown_steps = 10;  ///< undetermined steps within the tolerance
 /// Programmes of a path: ends a path that halves its step indefinitely.
 constexpr int most_programmes = 50000;
 
@@ -121,7 +121,7 @@ class Path {
       const bool narrow = step <= search.tolerance;
       const bool known = narrow && path_.upper && *path_.upper - moved() <= 2.0 * search.tolerance;
       // Rounding differs beside an undetermined place.
-      if (known || (narrow && ++unknown > most_unknown) || path_.programmes >= most_programmes) {
+      if (known || (narrow && ++unknown > most_unknown_steps) || path_.programmes >= most_programmes) {
         if (!path_.upper) path_.end = MovementEnd::not_determined;
         return;
       }

@@ -147,9 +147,9 @@ class Bodies {
   double fastest_ = 0.0;
 };
 
-class Splitting {
+class PointSplitting {
  public:
-  explicit Splitting(const Bodies& bodies)
+  explicit PointSplitting(const Bodies& bodies)
       : bodies_(bodies),
         stiffness_(bodies.points(), 0.0),
         impulses_(bodies.points(), Vector3d::Zero()),
@@ -223,7 +223,7 @@ class Splitting {
 SplitImpulses split_impulses(const std::vector<double>& inertia, const std::vector<int>& sizes,
                              const std::vector<ImpactPoint>& points, double accuracy, int iterations) {
   const Bodies bodies(inertia, sizes, points);
-  Splitting splitting(bodies);
+  PointSplitting splitting(bodies);
   SplitImpulses best{splitting.impulses(), std::numeric_limits<double>::infinity(), 0};
   for (int check = 1; best.iterations < iterations; ++check) {
     for (int k = 0; k < iterations_between_checks; ++k) splitting.iterate();

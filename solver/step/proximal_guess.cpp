@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-constexpr double over_relaxation = 1.6;
+constexpr double copy_relaxation = 1.6;
 constexpr int passes = 40;
 constexpr int passes_between_checks = 5;
 /// Residual relative to the largest force on a body, from which Newton's method converges.
@@ -87,9 +87,9 @@ Eigen::Vector3d proximal_point(const LawAt& law_at, const PointLaw& law, const E
   return {limited.force[0], shear[0], shear[1]};
 }
 
-class Splitting {
+class PairSplitting {
  public:
-  Splitting(IslandProblem& problem, const Residual& residual)
+  PairSplitting(IslandProblem& problem, const Residual& residual)
       : problem_(problem),
         first_guess_(problem.guess()),
         beside_contacts_(residual.force - problem.contact_forces()),
@@ -192,7 +192,7 @@ class Splitting {
     for (Eigen::Index column = 0; column < pair.places.cols(); ++column) {
       const auto point = static_cast<std::size_t>(column);
       const Eigen::Vector3d place =
-          over_relaxation * pair.places.col(column) + (1.0 - over_relaxation) * pair.copies.col(column);
+          copy_relaxation * pair.places.col(column) + (1.0 - copy_relaxation) * pair.copies.col(column);
       Eigen::Vector3d copy = pair.copies.col(column);
       pair.forces.col(column) = proximal_point(
           [&](const Eigen::Vector3d& there, const PointLaw& law) { return respond(k, point, there, law); },
@@ -261,7 +261,7 @@ bool take_proximal_guess(IslandProblem& problem, IslandTangent& tangent) {
   Evaluation present = problem.set_aside();
   problem.predict(Predictor::at_rest);
   problem.respond();
-  Splitting splitting(problem, problem.residual());
+  PairSplitting splitting(problem, problem.residual());
   problem.set_responses(splitting.penalties());
   if (tangent.factorize() == FactorStatus::success) splitting.iterate();
   if (splitting.best().size() > 0) {

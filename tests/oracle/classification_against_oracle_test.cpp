@@ -9,7 +9,7 @@
 #include "oracle/contact_comparison.hpp"
 #include "oracle/degenerate_pairs.hpp"
 
-namespace ashlar::oracle {
+namespace ashlar::oracle::classification_against_oracle_test {
 namespace {
 
 // So that a broken classifier does not print fifty thousand pairs.
@@ -81,4 +81,4 @@ TEST(Classification, StaysForAMillionVariants) {
 }
 
 }  // namespace
-}  // namespace ashlar::oracle
+}  // namespace ashlar::oracle::classification_against_oracle_test

@@ -7,7 +7,7 @@
 
 #include "oracle/exact_oracle.hpp"
 
-namespace ashlar::oracle {
+namespace ashlar::oracle::degenerate_pairs_test {
 namespace {
 
 TEST(DegeneratePairs, EachOfTheSevenAnswersIsFiveToThirtyPercent) {
@@ -66,4 +66,4 @@ TEST(DegeneratePairs, SameSeedSamePairs) {
 }
 
 }  // namespace
-}  // namespace ashlar::oracle
+}  // namespace ashlar::oracle::degenerate_pairs_test

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-namespace ashlar::oracle {
+namespace ashlar::oracle::oracle_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -174,4 +174,4 @@ TEST(SeparatingNormals, PointFromQToP) {
 }
 
 }  // namespace
-}  // namespace ashlar::oracle
+}  // namespace ashlar::oracle::oracle_test

@@ -15,7 +15,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "oracle/flat_overlap.hpp"
 
-namespace ashlar {
+namespace ashlar::solid_contacts_against_oracle_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -310,4 +310,4 @@ TEST(ConvexSolids, HaveTheContactOfTheConvexClassifier) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::solid_contacts_against_oracle_test

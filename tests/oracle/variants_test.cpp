@@ -11,7 +11,7 @@
 #include "oracle/degenerate_pairs.hpp"
 #include "oracle/exact_oracle.hpp"
 
-namespace ashlar::oracle {
+namespace ashlar::oracle::variants_test {
 namespace {
 
 mpq_class power_of_two(int exponent) {
@@ -115,4 +115,4 @@ TEST(MeshedAnew, IsClosedAndHasTheSameFacets) {
 }
 
 }  // namespace
-}  // namespace ashlar::oracle
+}  // namespace ashlar::oracle::variants_test

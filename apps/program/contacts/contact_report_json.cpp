@@ -12,7 +12,7 @@ namespace {
 
 using Buffer = fmt::memory_buffer;
 
-constexpr std::string_view names[] = {"corner", "edge", "face"};
+constexpr std::string_view feature_names[] = {"corner", "edge", "face"};
 
 void put(Buffer& out, std::string_view text) {
   out.append(text.data(), text.data() + text.size());
@@ -50,9 +50,10 @@ void put_vectors(Buffer& out, const std::vector<Vector3>& vectors) {
 // Names as in contact_types.md; a corner is named by its point of the mesh.
 std::string name_of(const ReportedFeature& feature) {
   if (feature.index >= 0)
-    return fmt::format("{} {}", feature.dimension == 0 ? "vertex" : names[feature.dimension], feature.index);
+    return fmt::format("{} {}", feature.dimension == 0 ? "vertex" : feature_names[feature.dimension],
+                       feature.index);
   if (feature.points.empty()) return {};
-  std::string name = fmt::format("hull {} ", names[feature.dimension]);
+  std::string name = fmt::format("hull {} ", feature_names[feature.dimension]);
   for (std::size_t k = 0; k < feature.points.size(); ++k)
     name += fmt::format("{}{}", k == 0 ? "" : "-", feature.points[k]);
   return name;
@@ -151,7 +152,7 @@ std::string text_of(const Vector3& v) {
 
 std::string text_of(const ReportedFeature& feature) {
   const std::string name = name_of(feature);
-  return name.empty() ? fmt::format("{} of the projection", names[feature.dimension]) : name;
+  return name.empty() ? fmt::format("{} of the projection", feature_names[feature.dimension]) : name;
 }
 
 void put_contact_text(Buffer& out, const ReportedContact& contact, bool is_convex) {

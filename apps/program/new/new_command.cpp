@@ -19,7 +19,7 @@
 namespace ashlar {
 namespace {
 
-std::vector<std::string> kinds() {
+std::vector<std::string> scene_kinds() {
   std::vector<std::string> names;
   for (const StartingScene& scene : starting_scenes()) names.emplace_back(scene.kind);
   return names;
@@ -33,7 +33,7 @@ int new_command(const NewOptions& options, std::ostream& out, std::ostream& err)
                                   [&](const StartingScene& scene) { return scene.kind == options.kind; });
   if (found == scenes.end()) {
     err << fmt::format("ashlar: error: unknown kind of scene ({}), {}one of {} is needed\n", options.kind,
-                       guess(options.kind, kinds()), fmt::join(kinds(), ", "));
+                       guess(options.kind, scene_kinds()), fmt::join(scene_kinds(), ", "));
     return exit_status::bad_input;
   }
   const std::filesystem::path file = options.file.value_or(options.kind + ".toml");
@@ -62,10 +62,10 @@ int new_command(const NewOptions& options, std::ostream& out, std::ostream& err)
 
 void declare_new_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand(
-      "new", fmt::format("Write a commented scene to begin with: {}", fmt::join(kinds(), ", ")));
+      "new", fmt::format("Write a commented scene to begin with: {}", fmt::join(scene_kinds(), ", ")));
   // Shared with the callback that reads it.
   const auto options = std::make_shared<NewOptions>();
-  command->add_option("KIND", options->kind, fmt::format("One of {}", fmt::join(kinds(), ", ")))
+  command->add_option("KIND", options->kind, fmt::format("One of {}", fmt::join(scene_kinds(), ", ")))
       ->required()
       ->type_name("");
   command->add_option("FILE", options->file, "Scene to write (default: KIND.toml)")->type_name("");

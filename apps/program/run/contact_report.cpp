@@ -12,7 +12,7 @@
 namespace ashlar {
 namespace {
 
-std::string text_of(const Vector3& vector) {
+std::string short_text_of(const Vector3& vector) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0);
 }
 
@@ -67,10 +67,10 @@ std::string features_of(const ExplainedContact& contact, const Names& names) {
 }
 
 std::string line_of(const ExplainedContact& contact, const Names& names) {
-  std::string line =
-      fmt::format("  {} {}: gap {:.4g} m, area {:.4g} m^2, at {}, normal {}{}",
-                  contact.removed ? "left out" : "used    ", features_of(contact, names), contact.gap,
-                  contact.area, text_of(contact.place), text_of(contact.normal), origin_of(contact.added));
+  std::string line = fmt::format("  {} {}: gap {:.4g} m, area {:.4g} m^2, at {}, normal {}{}",
+                                 contact.removed ? "left out" : "used    ", features_of(contact, names),
+                                 contact.gap, contact.area, short_text_of(contact.place),
+                                 short_text_of(contact.normal), origin_of(contact.added));
   if (contact.removed) line += fmt::format("\n           because: {}", reason_of(*contact.removed));
   return line + '\n';
 }
@@ -106,7 +106,7 @@ std::string forces_of(const Simulation& simulation, const PairKey& blocks, const
     ++states[static_cast<std::size_t>(state)];
   return fmt::format(
       "  the last step had {} contact points: {} open, {} sticking, {} sliding; force on {}: {} N\n",
-      record->points.size(), states[0], states[1], states[2], names.a, text_of(force_on_a(*record)));
+      record->points.size(), states[0], states[1], states[2], names.a, short_text_of(force_on_a(*record)));
 }
 
 }  // namespace

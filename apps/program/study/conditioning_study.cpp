@@ -8,13 +8,13 @@
 #include <limits>
 
 #include "apps/program/verify/verification_blocks.hpp"
+#include "apps/program/verify/verification_values.hpp"
 #include "mechanics/basis/monomial_basis.hpp"
 
 namespace ashlar {
 namespace {
 
-const Material rock{3600, 1e9, 0.2};
-constexpr double gravity = 9.81;
+const Material cantilever_rock{3600, 1e9, 0.2};
 constexpr int digits_of_a_double = 16;
 constexpr std::array<const char*, 4> basis_names = {"global", "centred", "scaled", "orthonormal"};
 
@@ -31,7 +31,7 @@ struct Matrices {
   Eigen::RowVectorXd at_tip;  ///< values at the tip
 };
 
-struct Outcome {
+struct SolvedSystem {
   double mass_condition;
   double stiffness_condition;
   double deflection;
@@ -54,7 +54,7 @@ Eigen::MatrixXd free_motions(const Eigen::MatrixXd& clamp) {
   return q.rightCols(p - qr.rank());
 }
 
-Outcome solve(const Matrices& matrices) {
+SolvedSystem solve(const Matrices& matrices) {
   const Eigen::Index p = matrices.gram.rows();
   const Eigen::MatrixXd motions = free_motions(matrices.clamp);
   const Eigen::Index m = motions.cols();
@@ -66,7 +66,7 @@ Outcome solve(const Matrices& matrices) {
     }
   }
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * m);
-  load.tail(m) = -rock.density * gravity * motions.transpose() * matrices.integrals;
+  load.tail(m) = -cantilever_rock.density * earth_gravity * motions.transpose() * matrices.integrals;
   const Eigen::VectorXd y = stiffness.ldlt().solve(load);
   return {condition(matrices.gram), condition(stiffness), (matrices.at_tip * motions).dot(y.tail(m))};
 }
@@ -79,7 +79,7 @@ std::vector<Vector3> clamp_points(const Polyhedron& solid, double distance, int 
 Matrices monomial_matrices(double distance, int order, MonomialOrigin origin) {
   const Polyhedron solid = cantilever_at(distance);
   const MonomialBasis basis(solid, order, origin);
-  return {basis.gram(), basis.stiffness(rock), basis.integrals(),
+  return {basis.gram(), basis.stiffness(cantilever_rock), basis.integrals(),
           basis.values(clamp_points(solid, distance, order)),
           basis.values({Vector3(distance + 8, 0, 0)}).row(0)};
 }
@@ -89,8 +89,8 @@ Matrices orthonormal_matrices(double distance, int order) {
   const PolynomialBasis basis(solid, order);
   Eigen::VectorXd integrals = Eigen::VectorXd::Zero(basis.size());
   integrals[0] = std::sqrt(basis.volume());
-  return {Eigen::MatrixXd::Identity(basis.size(), basis.size()), elastic_stiffness(basis, rock), integrals,
-          basis.values(clamp_points(solid, distance, order)),
+  return {Eigen::MatrixXd::Identity(basis.size(), basis.size()), elastic_stiffness(basis, cantilever_rock),
+          integrals, basis.values(clamp_points(solid, distance, order)),
           basis.values(Vector3(distance + 8, 0, 0)).transpose()};
 }
 
@@ -130,7 +130,7 @@ StudyResult study_conditioning_to(int most_order) {
                         half_widths > 0.0};
       for (int order = 1; order <= most_order; ++order) {
         const double distance = half_widths * half_width - half_width;
-        const Outcome outcome =
+        const SolvedSystem outcome =
             solve(kind == 3 ? orthonormal_matrices(distance, order)
                             : monomial_matrices(distance, order, static_cast<MonomialOrigin>(kind)));
         const double lost = digits_lost(outcome.deflection, references[static_cast<std::size_t>(order) - 1]);

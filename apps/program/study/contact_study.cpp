@@ -18,10 +18,9 @@ namespace {
 
 /// Smallest error in the picture: exact settings would otherwise compress all others.
 constexpr double least_drawn = 1e-5;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Settings of a run.
-struct Setting {
+struct ContactSetting {
   Formulation formulation = Formulation::total;
   bool area_springs = true;
   bool curved_surface = true;
@@ -31,7 +30,7 @@ struct Setting {
 };
 
 /// The paper's.
-Setting papers_own(Setting setting) {
+ContactSetting papers_own(ContactSetting setting) {
   setting.formulation = Formulation::incremental;
   setting.area_springs = false;
   setting.curved_surface = false;
@@ -39,9 +38,9 @@ Setting papers_own(Setting setting) {
 }
 
 /// Adds runs to the table and the picture.
-class Curves {
+class ContactCurves {
  public:
-  explicit Curves(StudyResult& result) : result_(result) {}
+  explicit ContactCurves(StudyResult& result) : result_(result) {}
 
   void start(int problem, std::string name, bool dashed = false) {
     problem_ = problem;
@@ -49,7 +48,7 @@ class Curves {
   }
 
   /// @param error_of runs and returns the error. @return that error
-  double add(const Setting& setting, const std::function<double(const Setting&)>& error_of) {
+  double add(const ContactSetting& setting, const std::function<double(const ContactSetting&)>& error_of) {
     const auto start = std::chrono::steady_clock::now();
     const double error = error_of(setting);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -69,7 +68,7 @@ class Curves {
   int problem_ = 0;
 };
 
-double patch_error(const Setting& setting) {
+double patch_error(const ContactSetting& setting) {
   PatchTest patch;
   patch.order = 3;
   patch.formulation = setting.formulation;
@@ -81,15 +80,15 @@ double patch_error(const Setting& setting) {
 }
 
 /// @return largest error with area springs
-double study_patch(int levels, Curves& curves) {
-  Setting setting;
+double study_patch(int levels, ContactCurves& curves) {
+  ContactSetting setting;
   setting.stiffness = 1e9;
   double worst = 0.0;
-  const auto over_levels = [&](const char* name, const Setting& with) {
+  const auto over_levels = [&](const char* name, const ContactSetting& with) {
     curves.start(1, name);
     double largest = 0.0;
     for (int level = 0; level <= levels; ++level) {
-      Setting run = with;
+      ContactSetting run = with;
       run.levels = level;
       largest = std::max(largest, curves.add(run, patch_error));
     }
@@ -103,14 +102,14 @@ double study_patch(int levels, Curves& curves) {
   setting.levels = 1;
   curves.start(1, "patch: incremental, point, flat");
   for (int level = 0; level <= std::min(levels, 1); ++level) {
-    Setting run = papers_own(setting);
+    ContactSetting run = papers_own(setting);
     run.levels = level;
     curves.add(run, patch_error);
   }
   return worst;
 }
 
-double hertz_error(const Setting& setting) {
+double hertz_error(const ContactSetting& setting) {
   HertzSphere sphere;
   sphere.near_order = 4;
   sphere.facets = setting.levels;
@@ -118,18 +117,18 @@ double hertz_error(const Setting& setting) {
   sphere.area_springs = setting.area_springs;
   sphere.curved_surface = setting.curved_surface;
   const HertzContact contact = press(sphere);
-  if (!contact.equilibrium) return nan;
+  if (!contact.equilibrium) return failed_run;
   return std::max({std::abs(contact.radius / sphere.contact_radius() - 1.0),
                    std::abs(contact.approach / sphere.approach() - 1.0),
                    std::abs(contact.peak_pressure / sphere.peak_pressure() - 1.0)});
 }
 
-void study_hertz(Curves& curves) {
-  Setting setting;
-  const auto over = [&](const char* name, const Setting& with) {
+void study_hertz(ContactCurves& curves) {
+  ContactSetting setting;
+  const auto over = [&](const char* name, const ContactSetting& with) {
     curves.start(2, name);
     for (const int facets : {2, 4, 6}) {
-      Setting run = with;
+      ContactSetting run = with;
       run.levels = facets;
       curves.add(run, hertz_error);
     }
@@ -150,7 +149,7 @@ void study_hertz(Curves& curves) {
 }
 
 /// Starts just above the cantilever at the speed of the fall, and runs until the tip has come up again.
-double deepest_tip(const Setting& setting) {
+double deepest_tip(const ContactSetting& setting) {
   FallingBlock example;
   example.drop = 0.01;
   example.speed = std::sqrt(2.0 * 9.81 * (1.0 - example.drop));
@@ -166,7 +165,7 @@ double deepest_tip(const Setting& setting) {
   Simulation simulation = falling_block(example);
   double deepest = 0.0;
   while (!simulation.reached(0.65)) {
-    if (simulation.step(0.65) != StepStatus::accepted) return nan;
+    if (simulation.step(0.65) != StepStatus::accepted) return failed_run;
     const Vector3 motion =
         simulation.blocks()[1].motion_of(simulation.states()[1], falling_block_tip()).displacement;
     deepest = std::min(deepest, motion.z());
@@ -175,17 +174,17 @@ double deepest_tip(const Setting& setting) {
 }
 
 /// @return errors of the finest steps: of these settings, and of the paper's
-std::array<double, 2> study_falling_block(const ContactStudySize& size, Curves& curves) {
-  Setting setting;
+std::array<double, 2> study_falling_block(const ContactStudySize& size, ContactCurves& curves) {
+  ContactSetting setting;
   setting.stiffness = 5e10;
   setting.time_step = size.reference_step;
   const double reference = deepest_tip(setting);
-  const auto error_of = [reference](const Setting& run) {
+  const auto error_of = [reference](const ContactSetting& run) {
     return std::abs(deepest_tip(run) / reference - 1.0);
   };
-  const auto over_steps = [&](const char* name, Setting with, double finest) {
+  const auto over_steps = [&](const char* name, ContactSetting with, double finest) {
     curves.start(3, name);
-    double error = nan;
+    double error = failed_run;
     with.time_step = 2e-3;
     while (with.time_step > 0.9 * finest) {
       error = curves.add(with, error_of);
@@ -196,7 +195,7 @@ std::array<double, 2> study_falling_block(const ContactStudySize& size, Curves& 
   const double ours = over_steps("block: area, curved, dt", setting, size.finest_step);
   const double papers =
       over_steps("block: incremental, point, flat, dt", papers_own(setting), 2.0 * size.finest_step);
-  const auto over_levels = [&](const char* name, Setting with) {
+  const auto over_levels = [&](const char* name, ContactSetting with) {
     curves.start(3, name, true);
     with.time_step = size.finest_step;
     for (int level = 0; level <= size.falling_levels; ++level) {
@@ -205,7 +204,7 @@ std::array<double, 2> study_falling_block(const ContactStudySize& size, Curves& 
     }
   };
   over_levels("block: area, curved, sub-faces", setting);
-  Setting flat = setting;
+  ContactSetting flat = setting;
   flat.curved_surface = false;
   over_levels("block: area, flat, sub-faces", flat);
   flat.area_springs = false;
@@ -232,7 +231,7 @@ StudyResult study_contact(const ContactStudySize& size) {
                     "levels",  "stiffness", "time_step",   "error", "seconds"};
   result.plot = {"Error of contact against run time", "seconds", "relative error (exact: at 1e-5)", {}};
   result.plot.slopes = false;
-  Curves curves(result);
+  ContactCurves curves(result);
   const double patch = study_patch(size.patch_levels, curves);
   if (size.hertz) study_hertz(curves);
   const auto [ours, papers] = study_falling_block(size, curves);

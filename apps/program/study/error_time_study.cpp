@@ -20,12 +20,11 @@
 namespace ashlar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 4> problem_names = {"incline", "swelling", "tumbling", "cantilever"};
 constexpr std::array<const char*, 3> integrator_names = {"dda", "average", "alpha"};
 
 /// Settings of a run.
-struct Setting {
+struct ErrorTimeSetting {
   int order = 1;
   Integrator integrator = Integrator::dda;
   bool springs = false;  ///< contact by springs instead of multipliers
@@ -34,7 +33,7 @@ struct Setting {
   double accuracy = 0.0;  ///< > 0: the step, or in statics the order, is chosen for it
 };
 
-SimulationSettings settings_of(const Setting& setting, const Vector3& gravity) {
+SimulationSettings settings_of(const ErrorTimeSetting& setting, const Vector3& gravity) {
   SimulationSettings settings;
   settings.gravity = gravity;
   settings.integrator = setting.integrator;
@@ -42,7 +41,7 @@ SimulationSettings settings_of(const Setting& setting, const Vector3& gravity) {
   return settings;
 }
 
-BlockDefinition block_of(const Setting& setting, Polyhedron solid, const Material& material) {
+BlockDefinition block_of(const ErrorTimeSetting& setting, Polyhedron solid, const Material& material) {
   BlockDefinition block = define_block(std::move(solid), material, setting.order);
   if (setting.incremental) block.formulation = Formulation::incremental;
   return block;
@@ -73,7 +72,7 @@ bool goes_to(Simulation& simulation, double time, double accuracy) {
   return true;
 }
 
-double incline_error(const Setting& setting) {
+double incline_error(const ErrorTimeSetting& setting) {
   constexpr double gravity = 10.0;
   constexpr double time = 0.4;
   constexpr double angle = std::numbers::pi / 6.0;
@@ -87,18 +86,18 @@ double incline_error(const Setting& setting) {
       scene.add(block_of(setting, Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2000, 1e8, 0.2}));
   Simulation simulation = scene.build();
   const Vector3 start = centroid(simulation, cube);
-  if (!goes_to(simulation, time, setting.accuracy)) return nan;
+  if (!goes_to(simulation, time, setting.accuracy)) return failed_run;
   const double way = 0.5 * gravity * time * time * (std::sin(angle) - tangent_of(20.0) * std::cos(angle));
   return std::abs((centroid(simulation, cube) - start).norm() / way - 1.0);
 }
 
 /// A cube that swells by 1 + e has the energy 9/2 B e^2, with its bulk modulus B, and the inertia rho / 4 for e.
-double swelling_error(const Setting& setting) {
+double swelling_error(const ErrorTimeSetting& setting) {
   const Material material{2000, 1e8, 0.25};
   const double bulk = material.young_modulus / (3.0 * (1.0 - 2.0 * material.poisson_ratio));
   const double frequency = std::sqrt(36.0 * bulk / material.density);
   const double period = 2.0 * std::numbers::pi / frequency;
-  Setting run = setting;
+  ErrorTimeSetting run = setting;
   run.time_step *= period;
   Simulation simulation =
       lone_block(block_of(run, Polyhedron(make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})), material), {},
@@ -108,7 +107,7 @@ double swelling_error(const Setting& setting) {
   SimulationSnapshot snapshot = simulation.snapshot();
   snapshot.run.states[0].velocity = amplitude * frequency * field;
   simulation.restore(snapshot);
-  if (!goes_to(simulation, 5.0 * period, setting.accuracy)) return nan;
+  if (!goes_to(simulation, 5.0 * period, setting.accuracy)) return failed_run;
   const PointMotion corner = simulation.blocks()[0].motion_of(simulation.states()[0], {0.5, 0.5, 0.5});
   const double strain = corner.displacement.x() / 0.5 / amplitude;
   const double rate = corner.velocity.x() / 0.5 / (amplitude * frequency);
@@ -146,13 +145,13 @@ Eigen::Matrix3d tumbled() {
   return state.leftCols<3>();
 }
 
-double tumbling_error(const Setting& setting) {
+double tumbling_error(const ErrorTimeSetting& setting) {
   static const Eigen::Matrix3d reference = tumbled();
   BlockDefinition box = block_of(setting, Polyhedron(make_box(-half_sides, half_sides)), {2000, 1e9, 0.2});
   for (int axis = 0; axis < 3; ++axis) box.followed.emplace_back(half_sides[axis] * Vector3::Unit(axis));
   Simulation simulation =
       lone_block(std::move(box), {Vector3::Zero(), tumble}, settings_of(setting, Vector3::Zero()));
-  if (!goes_to(simulation, tumbling_time, setting.accuracy)) return nan;
+  if (!goes_to(simulation, tumbling_time, setting.accuracy)) return failed_run;
   Eigen::Matrix3d turn;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 corner = half_sides[axis] * Vector3::Unit(axis);
@@ -163,9 +162,9 @@ double tumbling_error(const Setting& setting) {
 }
 
 /// Adds runs to the table and the picture.
-class Curves {
+class ErrorTimeCurves {
  public:
-  Curves(const ErrorTimeStudySize& size, StudyResult& result) : size_(size), result_(result) {}
+  ErrorTimeCurves(const ErrorTimeStudySize& size, StudyResult& result) : size_(size), result_(result) {}
 
   void start(int problem, const std::string& name) {
     problem_ = problem;
@@ -177,8 +176,8 @@ class Curves {
          false});
   }
 
-  void add(const Setting& setting, const std::function<double(const Setting&)>& error_of) {
-    double error = nan;
+  void add(const ErrorTimeSetting& setting, const std::function<double(const ErrorTimeSetting&)>& error_of) {
+    double error = failed_run;
     double seconds = std::numeric_limits<double>::infinity();
     for (int k = 0; k < size_.repeats; ++k) {
       const double start = processor_time();
@@ -194,8 +193,8 @@ class Curves {
   }
 
   /// @param coarsest step, in the problem's unit
-  void over_steps(int problem, Setting setting, double coarsest,
-                  const std::function<double(const Setting&)>& error_of) {
+  void over_steps(int problem, ErrorTimeSetting setting, double coarsest,
+                  const std::function<double(const ErrorTimeSetting&)>& error_of) {
     start(problem, setting.incremental
                        ? "the paper's"
                        : fmt::format("order {}, {}{}", setting.order,
@@ -206,7 +205,7 @@ class Curves {
   }
 
   /// Runs whose step, or in statics the order, is chosen.
-  void over_accuracies(int problem, Setting setting, const std::function<double(const Setting&)>& error_of) {
+  void over_accuracies(int problem, ErrorTimeSetting setting, const std::function<double(const ErrorTimeSetting&)>& error_of) {
     start(problem, problem == 4
                        ? "chosen order"
                        : fmt::format("chosen step, order {}, {}", setting.order,
@@ -264,7 +263,7 @@ std::vector<std::string> find_fronts(StudyResult& result) {
   return sentences;
 }
 
-double cantilever_of(const Setting& setting) {
+double cantilever_of(const ErrorTimeSetting& setting) {
   return setting.accuracy == 0.0 ? cantilever_error(setting.order) : cantilever_error_for(setting.accuracy);
 }
 
@@ -273,7 +272,7 @@ struct AskedProblem {
   int problem;
   int order;
   Integrator integrator;
-  double (*error_of)(const Setting&);
+  double (*error_of)(const ErrorTimeSetting&);
 };
 constexpr std::array<AskedProblem, 6> asked_problems = {
     {{1, 0, Integrator::dda, incline_error},
@@ -307,7 +306,7 @@ std::vector<std::string> compare_chosen(StudyResult& result) {
 std::vector<ChosenRun> chosen_runs(int accuracies) {
   std::vector<ChosenRun> runs;
   for (const AskedProblem& asked : asked_problems) {
-    Setting setting{asked.order, asked.integrator};
+    ErrorTimeSetting setting{asked.order, asked.integrator};
     setting.accuracy = 0.1;
     for (int k = 0; k < accuracies; ++k, setting.accuracy *= 0.1)
       runs.push_back({fmt::format("{}{}", problem_names.at(static_cast<std::size_t>(asked.problem - 1)),
@@ -330,7 +329,7 @@ StudyResult study_error_time(const ErrorTimeStudySize& size) {
                     "time_step", "error", "seconds", "front",      "accuracy"};
   result.plot = {"Error of motion against run time", "seconds", "error", {}};
   result.plot.slopes = false;
-  Curves curves(size, result);
+  ErrorTimeCurves curves(size, result);
   const std::array<Integrator, 3> integrators = {Integrator::dda, Integrator::average_acceleration,
                                                  Integrator::generalized_alpha};
   for (const int order : {0, 1}) {

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_values.hpp"
 
 namespace ashlar {
 namespace {
 
-constexpr double gravity = 9.81;  // m/s^2
-constexpr double friction = 0.6;
-constexpr double density = 2500.0;  // kg/m^3
+constexpr double block_friction = 0.6;
+constexpr double block_density = 2500.0;  // kg/m^3
 
 /// A scene of blocks of one shape at rest on a floor.
 struct Subject {
@@ -33,11 +33,11 @@ struct Subject {
   [[nodiscard]] Vector3 extent() const { return size * shape; }
   [[nodiscard]] BlockDefinition block(const Vector3& low, double mass_over_lower) const {
     return define_block(Polyhedron(make_box(low, low + extent())),
-                        {density * mass_over_lower, young_modulus, 0.0}, order);
+                        {block_density * mass_over_lower, young_modulus, 0.0}, order);
   }
 };
 
-struct Outcome {
+struct StabilityOutcome {
   double error = std::numeric_limits<double>::infinity();
   double promised = 0.0;
   double condition = 1.0;
@@ -56,8 +56,8 @@ double stiffness_condition(const BlockModel& block) {
   return least > 0.0 ? values[values.size() - 1] / least : std::numeric_limits<double>::infinity();
 }
 
-Outcome outcome_of(const Simulation& simulation) {
-  Outcome outcome;
+StabilityOutcome outcome_of(const Simulation& simulation) {
+  StabilityOutcome outcome;
   outcome.condition = stiffness_condition(simulation.blocks()[1]);
   outcome.iterations = simulation.steps();
   outcome.rejected = simulation.rejections().size();
@@ -65,16 +65,16 @@ Outcome outcome_of(const Simulation& simulation) {
 }
 
 void choose_numbers(ContactScene& scene, const Subject& subject) {
-  choose_as_for_statics(scene, std::cbrt(subject.extent().prod()), subject.young_modulus, friction);
+  choose_as_for_statics(scene, std::cbrt(subject.extent().prod()), subject.young_modulus, block_friction);
   scene.settings.augmented = subject.multipliers;
-  scene.settings.gravity = Vector3(0.0, 0.0, -gravity);
+  scene.settings.gravity = Vector3(0.0, 0.0, -earth_gravity);
   scene.settings.time_step = subject.time_step;
 }
 
 /// Settlement of the top of the uppermost block by the formula, m.
 double settled_by_hand(const Subject& subject, double normal_stiffness) {
   const double height = subject.extent().z();
-  const double lower = density * gravity * height;  // Pa, at its bottom
+  const double lower = block_density * earth_gravity * height;  // Pa, at its bottom
   const double upper = subject.mass_ratio * lower;
   const double blocks = ((upper + 0.5 * lower) * height + 0.5 * upper * height) / subject.young_modulus;
   return subject.multipliers ? blocks : blocks + (lower + 2.0 * upper) / normal_stiffness;
@@ -104,7 +104,7 @@ double promised_at_rest(const Subject& subject, double by_hand) {
   return unbalanced + 8.0 * epsilon * farthest / by_hand;
 }
 
-Outcome rest(const Subject& subject) {
+StabilityOutcome rest(const Subject& subject) {
   const Vector3 extent = subject.extent();
   ContactScene scene({Eigen::Matrix3d::Identity(), subject.offset * subject.size * Vector3(1.0, -0.7, 0.3)});
   choose_numbers(scene, subject);
@@ -116,7 +116,7 @@ Outcome rest(const Subject& subject) {
   if (subject.mass_ratio > 0.0) scene.add(subject.block({0, 0, extent.z()}, subject.mass_ratio));
   Simulation simulation = scene.build();
   const bool ended = find_equilibrium(simulation) == StaticStatus::equilibrium;
-  Outcome outcome = outcome_of(simulation);
+  StabilityOutcome outcome = outcome_of(simulation);
   outcome.ended = ended;
   const double by_hand = settled_by_hand(subject, normal_stiffness);
   outcome.error = std::abs(settled(simulation) / by_hand - 1.0);
@@ -124,9 +124,9 @@ Outcome rest(const Subject& subject) {
   return outcome;
 }
 
-Outcome slide(const Subject& subject) {
+StabilityOutcome slide(const Subject& subject) {
   constexpr double speed = 3.0;  // m/s
-  constexpr double time = speed / (friction * gravity);
+  constexpr double time = speed / (block_friction * earth_gravity);
   constexpr double way = 0.5 * speed * time;
   // The block touches the floor without penetration: initially it loses contact at times.
   constexpr double start_share = 3e-3;
@@ -139,7 +139,7 @@ Outcome slide(const Subject& subject) {
   constexpr double end = 1.5 * time;
   bool accepted = true;
   while (accepted && !simulation.reached(end)) accepted = simulation.step(end) == StepStatus::accepted;
-  Outcome outcome = outcome_of(simulation);
+  StabilityOutcome outcome = outcome_of(simulation);
   outcome.ended = accepted;
   outcome.error = std::abs((centroid(simulation, 1).x() - start) / way - 1.0);
   // In shorter steps the block loses and regains contact from one step to the next, and the impulses of multipliers
@@ -157,7 +157,7 @@ struct Sweep {
   double ordinary;
   std::vector<double> values;
   void (*set)(Subject&, double);
-  Outcome (*run)(const Subject&) = rest;
+  StabilityOutcome (*run)(const Subject&) = rest;
 };
 
 std::vector<Sweep> sweeps(const StabilityRange& range) {
@@ -201,7 +201,7 @@ struct Worst {
   bool ended = true;
   std::size_t rejected = 0;
 
-  void take(const Outcome& outcome) {
+  void take(const StabilityOutcome& outcome) {
     error = std::max(error, outcome.error);
     share = std::max(share, outcome.error / outcome.promised);  // 0 without a requirement
     ended = ended && outcome.ended;
@@ -237,7 +237,7 @@ StudyResult study_stability_of(const StabilityRange& range) {
           subject.order = order;
           subject.multipliers = multipliers;
           sweep.set(subject, value);
-          const Outcome outcome = sweep.run(subject);
+          const StabilityOutcome outcome = sweep.run(subject);
           result.rows.push_back(
               {static_cast<double>(k), value, static_cast<double>(subject.order), multipliers ? 1.0 : 0.0,
                outcome.error, outcome.condition, static_cast<double>(outcome.iterations),

@@ -3,12 +3,16 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "apps/program/plot/plot.hpp"
 
 namespace ashlar {
+
+/// Error of a run that ended early.
+inline constexpr double failed_run = std::numeric_limits<double>::quiet_NaN();
 
 /// Result of a study.
 struct StudyResult {

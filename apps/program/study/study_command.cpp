@@ -46,7 +46,7 @@ const std::array<Study, 7> studies = {
      {"stability", "error far from ordinary orders, places, shapes, masses, stiffness, sizes and steps",
       without_progress<study_stability>}}};
 
-std::vector<std::string> names() {
+std::vector<std::string> study_names() {
   std::vector<std::string> list;
   list.reserve(studies.size());
   for (const Study& study : studies) list.emplace_back(study.name);
@@ -60,7 +60,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
                                    [&](const Study& candidate) { return candidate.name == options.name; });
   if (study == studies.end()) {
     err << fmt::format("ashlar: error: unknown study ({}), {}one of {} is needed\n", options.name,
-                       guess(options.name, names()), fmt::join(names(), ", "));
+                       guess(options.name, study_names()), fmt::join(study_names(), ", "));
     return exit_status::bad_input;
   }
   const std::filesystem::path folder = options.folder.value_or(options.name + ".study");

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int least_order = 2;
 constexpr int most_order = 8;
-constexpr double arc_radius = 5.0;  ///< m, of the bent middle plane
-constexpr double twist = 0.02;      ///< 1/m
-constexpr int samples = 8;          ///< along each side of a sub-face
+constexpr double arc_radius = 5.0;     ///< m, of the bent middle plane
+constexpr double twist = 0.02;         ///< 1/m
+constexpr int samples_along_side = 8;  ///< along each side of a sub-face
 /// The ratio of bound and error is required where the error is below this share of the block's length.
 constexpr double small_error = 1e-3;
 constexpr double promised_ratio = 3.0;
@@ -52,7 +52,7 @@ Measured measure(const AdaptiveSurface& surface) {
   for (std::size_t cell = 0; cell < surface.cell_shapes().size(); ++cell) {
     const auto& rim = surface.surface().cells[cell].rim;
     const double error = sampled_chord_error(surface.patch(static_cast<int>(cell)),
-                                             {rim[0] >= 0, rim[1] >= 0, rim[2] >= 0}, samples);
+                                             {rim[0] >= 0, rim[1] >= 0, rim[2] >= 0}, samples_along_side);
     const double bound = surface.cell_shapes()[cell].chord_bound;
     measured.error = std::max(measured.error, error);
     measured.bound = std::max(measured.bound, bound);

@@ -18,7 +18,7 @@ namespace {
 
 using Kind = Distribution::Kind;
 
-const std::map<std::string, Kind>& kinds() {
+const std::map<std::string, Kind>& distribution_kinds() {
   static const std::map<std::string, Kind> kinds = {{"normal", Kind::normal},
                                                     {"lognormal", Kind::lognormal},
                                                     {"uniform", Kind::uniform},
@@ -65,8 +65,9 @@ std::string fault_of(Kind kind, const std::vector<double>& p) {
 std::optional<Distribution> parse_distribution(const std::string& text) {
   const std::string plain = without_spaces(text);
   const std::size_t open = plain.find('(');
-  const auto kind = kinds().find(plain.substr(0, open));
-  if (open == std::string::npos || kind == kinds().end() || plain.back() != ')') return std::nullopt;
+  const auto kind = distribution_kinds().find(plain.substr(0, open));
+  if (open == std::string::npos || kind == distribution_kinds().end() || plain.back() != ')')
+    return std::nullopt;
   Distribution distribution;
   distribution.kind = kind->second;
   distribution.parameters = numbers_in(plain.substr(open + 1, plain.size() - open - 2), text);

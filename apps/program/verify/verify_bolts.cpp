@@ -7,14 +7,12 @@
 #include <numbers>
 
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_values.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "solver/statics/limit_analysis.hpp"
 
 namespace ashlar {
 namespace {
-
-constexpr double gravity = 9.81;
-const Material rock{2500.0, 1e10, 0.2};
 
 /// A straight bolt from one block into another one; with grout, `joint` is how far from its first end the blocks meet.
 Bolt bolt_between(const BoltLaw& law, int first, const Vector3& from, int second, const Vector3& to,
@@ -42,15 +40,15 @@ BoltLaw at_ends(double axial_stiffness) {
 /// A block of 2 m^3 under a fixed roof that it touches, z = 0, both 2 m high, held by bolts. Blocks 0 and 1.
 Simulation under_a_roof(std::vector<Bolt> bolts) {
   ContactScene scene;
-  scene.settings.gravity = {0, 0, -gravity};
-  choose_as_for_statics(scene, 1.0, rock.young_modulus, 0.5);
+  scene.settings.gravity = {0, 0, -earth_gravity};
+  choose_as_for_statics(scene, 1.0, common_rock.young_modulus, 0.5);
   scene.add_fixed(Polyhedron(make_box({-2, -2, 0}, {2, 2, 2})));
-  scene.add(define_block(Polyhedron(make_box({-0.5, -0.5, -2}, {0.5, 0.5, 0})), rock, 0));
+  scene.add(define_block(Polyhedron(make_box({-0.5, -0.5, -2}, {0.5, 0.5, 0})), common_rock, 0));
   Simulation simulation = scene.build();
   simulation.add_bolts(std::move(bolts));
   return simulation;
 }
-constexpr double hung_weight = 2.0 * 2500.0 * gravity;
+constexpr double hung_weight = 2.0 * 2500.0 * earth_gravity;
 
 /// The bar in rigid rock, EA w'' = k w: a force T pulls it out by T coth(lambda L) / (EA lambda), lambda^2 = k / EA, on
 /// each side of the joint. With the strength of the bond in one block below T / L it slips out.
@@ -112,7 +110,7 @@ std::vector<VerificationCheck> hung_block() {
 std::vector<VerificationCheck> bolted_slope() {
   std::vector<VerificationCheck> checks;
   constexpr double incline = 40.0, phi = 30.0;
-  const double weight = 2.0 * rock.density * gravity;
+  const double weight = 2.0 * common_rock.density * earth_gravity;
   for (const auto& [beta, share] : {std::array{40.0, 0.2}, {70.0, 0.3}, {55.0, 0.15}}) {
     const double alpha = incline * std::numbers::pi / 180.0, angle = beta * std::numbers::pi / 180.0;
     const double force = share * weight;
@@ -126,10 +124,10 @@ std::vector<VerificationCheck> bolted_slope() {
     const Vector3 from = at_joint - 0.9 * along, to = at_joint + 1.5 * along;
     const FactorBracket bracket = find_factor({.tolerance = 0.004}, [&](double factor) {
       ContactScene scene;
-      scene.settings.gravity = gravity * Vector3(std::sin(alpha), 0.0, -std::cos(alpha));
-      choose_as_for_statics(scene, 1.0, rock.young_modulus, tangent_of(phi) / factor);
+      scene.settings.gravity = earth_gravity * Vector3(std::sin(alpha), 0.0, -std::cos(alpha));
+      choose_as_for_statics(scene, 1.0, common_rock.young_modulus, tangent_of(phi) / factor);
       scene.add_fixed(Polyhedron(make_box({-6, -2, -3}, {6, 2, 0})));
-      scene.add(define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 1})), rock, 1));
+      scene.add(define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 1})), common_rock, 1));
       Simulation simulation = scene.build();
       simulation.add_bolts({bolt_between(law, 1, from, 0, to, 0.9)});
       return run_trial(simulation, factor, 1.0);
@@ -145,12 +143,12 @@ std::vector<VerificationCheck> bolted_slope() {
 /// A bolt across a plane without friction: its dowel bears W sin(alpha), by a slip of W sin(alpha) / k.
 std::vector<VerificationCheck> dowel() {
   constexpr double alpha = 0.5, stiffness = 2e7;
-  const double force = 2.0 * rock.density * gravity * std::sin(alpha);
+  const double force = 2.0 * common_rock.density * earth_gravity * std::sin(alpha);
   ContactScene scene;
-  scene.settings.gravity = gravity * Vector3(std::sin(alpha), 0.0, -std::cos(alpha));
-  choose_as_for_statics(scene, 1.0, rock.young_modulus, 0.0);
+  scene.settings.gravity = earth_gravity * Vector3(std::sin(alpha), 0.0, -std::cos(alpha));
+  choose_as_for_statics(scene, 1.0, common_rock.young_modulus, 0.0);
   scene.add_fixed(Polyhedron(make_box({-6, -2, -3}, {6, 2, 0})));
-  scene.add(define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 1})), rock, 0));
+  scene.add(define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 1})), common_rock, 0));
   Simulation simulation = scene.build();
   BoltLaw law = grouted(1e8, 1e9);
   law.shear_stiffness = stiffness;
@@ -168,10 +166,10 @@ std::vector<VerificationCheck> dowel() {
 std::vector<VerificationCheck> yielding_prop() {
   constexpr double push = 3e5, yield = 1e5, stiffness = 4e7;
   ContactScene scene;
-  scene.settings.gravity = {0, 0, -gravity};
-  choose_as_for_statics(scene, 1.0, rock.young_modulus, 0.0);
+  scene.settings.gravity = {0, 0, -earth_gravity};
+  choose_as_for_statics(scene, 1.0, common_rock.young_modulus, 0.0);
   scene.add_fixed(Polyhedron(make_box({-4, -2, -1}, {6, 2, 0})));
-  BlockDefinition block = define_block(Polyhedron(make_box({-1, -1, 0}, {1, 1, 1})), rock, 0);
+  BlockDefinition block = define_block(Polyhedron(make_box({-1, -1, 0}, {1, 1, 1})), common_rock, 0);
   block.loads.push_back({Vector3(-1, 0, 0.5), false, Vector3(push, 0, 0), {}});
   scene.add(std::move(block));
   scene.add_fixed(Polyhedron(make_box({4, -2, 0}, {6, 2, 1})));
@@ -196,11 +194,6 @@ std::vector<VerificationCheck> yielding_prop() {
   return checks;
 }
 
-double middle(const LimitBracket& bracket) {
-  const bool known = bracket.resolved && bracket.lower && bracket.upper;
-  return known ? std::sqrt(*bracket.lower * *bracket.upper) : std::nan("");
-}
-
 /// Both limits of a scene with bolts. @param multiplied true if loads get the factor, false: strengths over it
 void add_limits(std::vector<VerificationCheck>& checks, const std::string& what, const Simulation& simulation,
                 bool multiplied, double reference) {
@@ -219,14 +212,14 @@ void add_limits(std::vector<VerificationCheck>& checks, const std::string& what,
 std::vector<VerificationCheck> limit_of_a_bolted_slope() {
   std::vector<VerificationCheck> checks;
   constexpr double incline = 40.0, phi = 30.0;
-  const double weight = 2.0 * rock.density * gravity, alpha = incline * std::numbers::pi / 180.0;
+  const double weight = 2.0 * common_rock.density * earth_gravity, alpha = incline * std::numbers::pi / 180.0;
   for (const auto& [beta, share] : {std::array{40.0, 0.2}, {70.0, 0.3}, {55.0, 0.15}}) {
     const double angle = beta * std::numbers::pi / 180.0, force = share * weight;
     ContactScene scene;
-    scene.settings.gravity = gravity * Vector3(std::sin(alpha), 0.0, -std::cos(alpha));
-    choose_as_for_statics(scene, 1.0, rock.young_modulus, tangent_of(phi));
+    scene.settings.gravity = earth_gravity * Vector3(std::sin(alpha), 0.0, -std::cos(alpha));
+    choose_as_for_statics(scene, 1.0, common_rock.young_modulus, tangent_of(phi));
     scene.add_fixed(Polyhedron(make_box({-6, -2, -3}, {6, 2, 0})));
-    scene.add(define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 1})), rock, 0));
+    scene.add(define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 1})), common_rock, 0));
     Simulation simulation = scene.build();
     const Vector3 along(-std::cos(angle), 0.0, -std::sin(angle));
     BoltLaw law = grouted(1e8, 1e9);
@@ -244,15 +237,15 @@ std::vector<VerificationCheck> limit_of_a_bolted_slope() {
 std::vector<VerificationCheck> bolted_wedge() {
   std::vector<VerificationCheck> checks;
   constexpr double strength = 6e4, length = 0.5;
-  const double weight = 4.0 / 3.0 * rock.density * gravity;
+  const double weight = 4.0 / 3.0 * common_rock.density * earth_gravity;
   for (const int count : {3, 5}) {
     for (const bool steel : {true, false}) {
       ContactScene scene;
-      scene.settings.gravity = {0, 0, -gravity};
-      choose_as_for_statics(scene, 1.0, rock.young_modulus, 0.5);
+      scene.settings.gravity = {0, 0, -earth_gravity};
+      choose_as_for_statics(scene, 1.0, common_rock.young_modulus, 0.5);
       scene.add_fixed(Polyhedron(make_box({-3, -3, 0}, {3, 3, 2})));
       BlockDefinition wedge =
-          define_block(hull_of({{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {0, 0, -1}}), rock, 0);
+          define_block(hull_of({{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {0, 0, -1}}), common_rock, 0);
       wedge.loads.push_back({Vector3(0, 0, -1), false, Vector3(0, 0, -1e3), {}});
       scene.add(std::move(wedge));
       Simulation simulation = scene.build();
@@ -280,10 +273,11 @@ std::vector<VerificationCheck> prop_limit() {
   std::vector<VerificationCheck> checks;
   for (const double yield : {1e5, 3e5}) {
     ContactScene scene;
-    scene.settings.gravity = {0, 0, -gravity};
-    choose_as_for_statics(scene, 1.0, rock.young_modulus, 0.5);
+    scene.settings.gravity = {0, 0, -earth_gravity};
+    choose_as_for_statics(scene, 1.0, common_rock.young_modulus, 0.5);
     scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {2, 2, 0})));
-    BlockDefinition block = define_block(Polyhedron(make_box({-0.5, -0.5, 2}, {0.5, 0.5, 4})), rock, 0);
+    BlockDefinition block =
+        define_block(Polyhedron(make_box({-0.5, -0.5, 2}, {0.5, 0.5, 4})), common_rock, 0);
     block.loads.push_back({Vector3(0, 0, 4), false, Vector3(0, 0, -1e3), {}});
     scene.add(std::move(block));
     Simulation simulation = scene.build();
@@ -297,7 +291,7 @@ std::vector<VerificationCheck> prop_limit() {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase bolt_case_list[] = {
     {"bolt-pull-out", "a block under a roof hangs on one grouted bolt, until its bond slips", pull_out},
     {"bolt-hung-block", "a block hangs on n bars", hung_block},
     {"bolt-slope", "factor of safety of a block on a slope with a yielding bolt", bolted_slope},
@@ -311,7 +305,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> bolt_cases() {
-  return cases;
+  return bolt_case_list;
 }
 
 }  // namespace ashlar

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double tension = 1e5, shear = 2e5, energy_of_tension = 50.0, energy_of_shear = 200.0;
 constexpr double end_opening = 2.0 * energy_of_tension / tension;
-constexpr double height = 0.5, young_modulus = 1e9;
+constexpr double block_height = 0.5, young_modulus = 1e9;
 
 JointLaw softening(double stiffness) {
   JointLaw law{stiffness, stiffness, 0.5, shear, tension, true};
@@ -26,8 +26,8 @@ ContactScene driven_block(const JointLaw& law, const SupportHistory& history, in
   *scene.law = law;
   scene.add_fixed(Polyhedron(make_box({-1, -1, -1}, {2, 2, 0})));
   BlockDefinition block =
-      define_block(Polyhedron(make_box({0, 0, 0}, {1, 1, height})), {2500, young_modulus, 0.0}, order);
-  block.supports.push_back({Plane{{0, 0, height}, Vector3::UnitZ()}, {true, true, true}, history});
+      define_block(Polyhedron(make_box({0, 0, 0}, {1, 1, block_height})), {2500, young_modulus, 0.0}, order);
+  block.supports.push_back({Plane{{0, 0, block_height}, Vector3::UnitZ()}, {true, true, true}, history});
   scene.add(std::move(block));
   return scene;
 }
@@ -101,7 +101,7 @@ std::vector<VerificationCheck> fracture_branch() {
     return std::abs(force_on_a(simulation.contacts().at(0)).z());
   };
   // Series:  u = t height/E + w,  t = T (wf - w)/(wf - w0).
-  const double fall = tension / (end_opening - peak), soft = height / young_modulus;
+  const double fall = tension / (end_opening - peak), soft = block_height / young_modulus;
   const auto opening = [&](double way) { return (way - soft * fall * end_opening) / (1.0 - soft * fall); };
   for (std::size_t k = 0; k < ways.size(); ++k) {
     const double elastic = ways[k] / (soft + 1.0 / stiffness);
@@ -146,7 +146,7 @@ std::vector<VerificationCheck> breaking_tie() {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase bond_case_list[] = {
     {"fracture-work", "a bonded block pulled off and along, by fracture energy", fracture_work},
     {"fracture-branch", "the falling branch of a bond, and its unloading", fracture_branch},
     {"tie-breaks", "a tied block loaded up to and beyond its tie", breaking_tie},
@@ -155,7 +155,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> bond_cases() {
-  return cases;
+  return bond_case_list;
 }
 
 }  // namespace ashlar

@@ -16,10 +16,10 @@
 namespace ashlar {
 namespace {
 
-constexpr double density = 2000.0, shear_speed = 200.0, height = 40.0;
+constexpr double soil_density = 2000.0, shear_speed = 200.0, column_height = 40.0;
 constexpr double pulse_time = 0.1;  // s, of a pulse
 /// Poisson's ratio 1/4: lambda = mu, c_p = sqrt(3) c_s, E = 2.5 mu.
-constexpr double shear_modulus = density * shear_speed * shear_speed;
+constexpr double shear_modulus = soil_density * shear_speed * shear_speed;
 
 enum class Wave { pressure, shear };
 
@@ -49,7 +49,7 @@ std::string header(double time_step, const char* analysis) {
   return fmt::format(
       "[analysis]\nend_time = 10\ntime_step = {}\nintegrator = \"average-acceleration\"\n{}\n"
       "[[material]]\nname = \"soil\"\ndensity = {}\nyoung_modulus = {:.17g}\npoisson_ratio = 0.25\n",
-      time_step, analysis, density, 2.5 * shear_modulus);
+      time_step, analysis, soil_density, 2.5 * shear_modulus);
 }
 
 constexpr const char* quiet_base =
@@ -100,16 +100,16 @@ std::vector<VerificationCheck> quiet_pulse() {
     scene += fmt::format(
         "[[assign]]\nblocks = [\"soil.10\"]\n[[assign.load]]\n"
         "plane = {{ point = [0, 0, 40], normal = [0, 0, 1] }}\ntraction = [{}]\nhistory = [{}]\n",
-        along(wave, density * speed(wave) * velocity), history);
+        along(wave, soil_density * speed(wave) * velocity), history);
     Simulation simulation = simulation_of(scene);
-    const double gone = height / speed(wave) + pulse_time;  // through the base
+    const double gone = column_height / speed(wave) + pulse_time;  // through the base
     double passing = 0.0, after = 0.0, energy = 0.0;
     run_until(simulation, gone + 0.02, [&] {
       passing = std::max(passing, std::abs(velocity_at(simulation, wave, 20.0)));
       energy = std::max(energy, simulation.ledger().kinetic + simulation.ledger().elastic);
     });
     const double left = simulation.ledger().kinetic + simulation.ledger().elastic;
-    run_until(simulation, gone + 0.02 + height / speed(wave), [&] {
+    run_until(simulation, gone + 0.02 + column_height / speed(wave), [&] {
       for (const double z : {20.0, 40.0}) after = std::max(after, std::abs(velocity_at(simulation, wave, z)));
     });
     const std::string what = name_of(wave);
@@ -138,10 +138,10 @@ std::vector<VerificationCheck> wave_at_free_surface() {
     const std::string scene =
         header(1e-3, "gravity = [0, 0, 0]") + column(wave) + quiet_base + fmt::format("wave = [{}]\n", rows);
     Simulation simulation = simulation_of(scene);
-    const double up = height / speed(wave);
+    const double up = column_height / speed(wave);
     double largest = 0.0, error = 0.0, after = 0.0;
     run_until(simulation, up + pulse_time, [&] {
-      const double top = velocity_at(simulation, wave, height);
+      const double top = velocity_at(simulation, wave, column_height);
       largest = std::max(largest, std::abs(top));
       error = std::max(error, std::abs(top - 2.0 * velocity * pulse(simulation.time() - up)));
     });
@@ -194,7 +194,7 @@ std::vector<VerificationCheck> settled_column(const std::string& what, const cha
   return {
       check_absolute(what + ": blocks without equilibrium before the motion",
                      start.message.empty() ? 0.0 : 1.0, 0.0, 0.0),
-      check_relative(what + ": reaction of the base, N", reaction.z(), density * 9.81 * 16.0 * 20.0,
+      check_relative(what + ": reaction of the base, N", reaction.z(), soil_density * 9.81 * 16.0 * 20.0,
                      accuracy),
       check_absolute(what + ": motion in 0.5 s, of the settlement", moved / (20.0 - settled.back().z()), 0.0,
                      10.0 * accuracy),
@@ -215,8 +215,8 @@ std::vector<VerificationCheck> free_field_sides() {
   constexpr double soft_speed = 100.0, soft_height = 8.0, stiff_height = 12.0, velocity = 0.01, slower = 2.0;
   std::string scene = header(1e-3, "gravity = [0, 0, 0]");
   scene += fmt::format(
-      "[[material]]\nname = \"soft\"\ndensity = {}\nyoung_modulus = {:.17g}\npoisson_ratio = 0.25\n", density,
-      2.5 * density * soft_speed * soft_speed);
+      "[[material]]\nname = \"soft\"\ndensity = {}\nyoung_modulus = {:.17g}\npoisson_ratio = 0.25\n",
+      soil_density, 2.5 * soil_density * soft_speed * soft_speed);
   scene += "[[joint]]\nblocks = [\"*\", \"*\"]\ntied = true\n";
   for (int layer = 0; layer < 5; ++layer)
     scene += fmt::format(
@@ -269,7 +269,7 @@ std::vector<VerificationCheck> free_field_sides() {
   };
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase boundary_case_list[] = {
     {"quiet-pulse", "pulses that leave a column through its quiet base", quiet_pulse},
     {"wave-free-surface", "an upward wave at a quiet base, and the free surface", wave_at_free_surface},
     {"quiet-static", "a column at rest on a quiet base keeps its reaction", static_reaction},
@@ -279,7 +279,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> boundary_cases() {
-  return cases;
+  return boundary_case_list;
 }
 
 }  // namespace ashlar

@@ -43,7 +43,7 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
   return chosen;
 }
 
-struct Outcome {
+struct CaseOutcome {
   std::string name;
   std::vector<VerificationCheck> checks;
   double seconds;
@@ -53,9 +53,9 @@ struct Outcome {
   }
 };
 
-Outcome run(const VerificationCase& chosen) {
+CaseOutcome run(const VerificationCase& chosen) {
   const auto start = std::chrono::steady_clock::now();
-  Outcome outcome{chosen.name, {}, 0.0};
+  CaseOutcome outcome{chosen.name, {}, 0.0};
   try {
     outcome.checks = chosen.run();
   } catch (const std::exception& error) {
@@ -66,7 +66,7 @@ Outcome run(const VerificationCase& chosen) {
   return outcome;
 }
 
-void print(const Outcome& outcome, std::ostream& out) {
+void print(const CaseOutcome& outcome, std::ostream& out) {
   out << fmt::format("{} {} ({:.2f} s)\n", outcome.passed() ? "pass" : "FAIL", outcome.name, outcome.seconds);
   for (const VerificationCheck& check : outcome.checks) {
     out << fmt::format("     {} {}: {:.10g}, reference {:.10g}, error {:.2e}, tolerance {:.0e}\n",
@@ -76,7 +76,7 @@ void print(const Outcome& outcome, std::ostream& out) {
   out.flush();
 }
 
-nlohmann::ordered_json to_json(const Outcome& outcome) {
+nlohmann::ordered_json to_json(const CaseOutcome& outcome) {
   nlohmann::ordered_json checks = nlohmann::ordered_json::array();
   for (const VerificationCheck& check : outcome.checks) {
     checks.push_back({{"what", check.what},
@@ -112,7 +112,7 @@ int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream
   int failed = 0;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const VerificationCase& chosen : cases) {
-    const Outcome outcome = run(chosen);
+    const CaseOutcome outcome = run(chosen);
     if (!outcome.passed()) ++failed;
     if (options.json)
       list.push_back(to_json(outcome));

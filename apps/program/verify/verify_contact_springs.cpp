@@ -281,7 +281,7 @@ std::vector<VerificationCheck> shear_patch() {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase contact_spring_case_list[] = {
     {"contact-derivatives", "contact matrices against differences of forces and energies",
      contact_derivatives},
     {"contact-patch", "uniform pressure through a joint, area springs", contact_patch},
@@ -293,7 +293,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> contact_spring_cases() {
-  return cases;
+  return contact_spring_case_list;
 }
 
 }  // namespace ashlar

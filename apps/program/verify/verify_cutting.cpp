@@ -240,7 +240,7 @@ std::vector<VerificationCheck> wedge_geometry() {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase cutting_case_list[] = {
     {"cut-cube", "a cube cut into unit cubes by three sets of joints", cut_cube},
     {"cut-conserves", "hulls and solids that are not convex cut by random sets", cut_conserves},
     {"removable", "key blocks by block theory", removable},
@@ -250,7 +250,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> cutting_cases() {
-  return cases;
+  return cutting_case_list;
 }
 
 }  // namespace ashlar

@@ -76,14 +76,14 @@ std::vector<VerificationCheck> falling_block_case(const Placement& placement) {
                      coarse.deepest, reported)};
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase falling_block_case_list[] = {
     {"falling-block", "a cube that falls on a cantilever: convergence", falling_block_case},
 };
 
 }  // namespace
 
 std::span<const VerificationCase> falling_block_cases() {
-  return cases;
+  return falling_block_case_list;
 }
 
 }  // namespace ashlar

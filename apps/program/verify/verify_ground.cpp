@@ -9,13 +9,13 @@
 #include "apps/program/verify/sliding_wedge.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
 #include "apps/program/verify/verification_scenes.hpp"
+#include "apps/program/verify/verification_values.hpp"
 #include "apps/run/factor_analysis.hpp"
 
 namespace ashlar {
 namespace {
 
-constexpr double gravity = 9.81;
-constexpr double density = 2600.0;
+constexpr double rock_density = 2600.0;
 constexpr double of_water = 9810.0;  // N/m^3
 
 constexpr const char* statics_of_rock = R"([analysis]
@@ -76,7 +76,7 @@ std::vector<VerificationCheck> tension_crack() {
   const double base = back * std::tan(dip), crest = height / tangent_of(60), length = back / std::cos(dip);
   // Below the crest line, less the triangle below the plane.
   const double weight =
-      density * gravity * (0.5 * crest * height + (back - crest) * height - 0.5 * back * base);
+      rock_density * earth_gravity * (0.5 * crest * height + (back - crest) * height - 0.5 * back * base);
   std::vector<VerificationCheck> checks;
   for (const auto& [filled, phi, cohesion] :
        {std::array{0.0, 40.0, 0.0}, {0.5, 40.0, 0.0}, {1.0, 35.0, 2e4}}) {
@@ -107,8 +107,8 @@ std::vector<VerificationCheck> tension_crack() {
 /// Uplift falls linearly from the heel to the toe: F = (W - U) tan(phi) / V.
 std::vector<VerificationCheck> dam_on_its_base() {
   const double width = 5.0, height = 10.0, level = 9.0, phi = 35.0;
-  const double weight = width * height * density * gravity, uplift = 0.5 * of_water * level * width,
-               thrust = 0.5 * of_water * level * level;
+  const double weight = width * height * rock_density * earth_gravity,
+               uplift = 0.5 * of_water * level * width, thrust = 0.5 * of_water * level * level;
   std::string scene = statics_of_rock;
   scene += fmt::format("[contact]\nfriction_angle = {}\n", phi);
   scene += prism("ground", {{-5, -2}, {10, -2}, {10, 0}, {-5, 0}}, -1, 2, "fixed = true");
@@ -148,7 +148,7 @@ std::vector<VerificationCheck> wedge_under_water() {
   const double top = std::max(level, highest);
   uplift += light * 4.0 * (top - level);
   scene += water("ground water", {0, 0, top}, Vector3::UnitZ(), light, "[\"wedge\"]", "[]");
-  const double weight = wedge.volume() * density * gravity;
+  const double weight = wedge.volume() * rock_density * earth_gravity;
   return {check_safety("wedge under water", scene,
                        (wedge.grip * weight - uplift) * tangent_of(phi) / (wedge.slip * weight))};
 }
@@ -169,7 +169,7 @@ std::vector<VerificationCheck> column(const std::string& what, const std::string
   std::vector<VerificationCheck> checks = {
       check_status(what + ": in equilibrium", simulation, StaticStatus::equilibrium)};
   double moved = 0.0, vertical = 0.0, across = 0.0;
-  const double unit_weight = density * gravity;
+  const double unit_weight = rock_density * earth_gravity;
   for (int k = 1; k <= 5; ++k) {
     for (const double z : {2.0 * k - 2, 2.0 * k - 1, 2.0 * k}) {
       const auto index = static_cast<std::size_t>(k);
@@ -198,7 +198,8 @@ std::vector<VerificationCheck> stress_of_the_ground() {
       const std::string fix = fmt::format("[[block.fix]]\n{}\ncomponents = [\"{}\"]\n", plane, letter);
       rollers += fix;
       const double outward = side == 0.0 ? -1.0 : 1.0;
-      const std::string size = fmt::format("\"= {} * 0.4 * {} * (10 - z)\"", -outward, density * gravity);
+      const std::string size =
+          fmt::format("\"= {} * 0.4 * {} * (10 - z)\"", -outward, rock_density * earth_gravity);
       tractions += axis == 1 ? fix : fmt::format("[[block.load]]\n{}\ntraction = [{}, 0, 0]\n", plane, size);
     }
   }
@@ -207,7 +208,7 @@ std::vector<VerificationCheck> stress_of_the_ground() {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase ground_case_list[] = {
     {"water-tension-crack", "factor of safety of a slope with water in its tension crack", tension_crack},
     {"water-dam", "factor of safety of a dam with uplift", dam_on_its_base},
     {"water-wedge", "factor of safety of a wedge under water", wedge_under_water},
@@ -217,7 +218,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> ground_cases() {
-  return cases;
+  return ground_case_list;
 }
 
 }  // namespace ashlar

@@ -19,14 +19,14 @@ std::vector<VerificationCheck> hertz_sphere() {
           check_relative("peak pressure, Pa", found(contact.peak_pressure), 485.6e6, 0.05)};
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase hertz_case_list[] = {
     {"hertz-sphere", "a sphere on a rigid plane, of graded tied blocks", hertz_sphere},
 };
 
 }  // namespace
 
 std::span<const VerificationCase> hertz_cases() {
-  return cases;
+  return hertz_case_list;
 }
 
 }  // namespace ashlar

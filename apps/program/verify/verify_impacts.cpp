@@ -241,7 +241,7 @@ std::vector<VerificationCheck> rocking_block(const Placement& placement) {
           check_energy("residual of a step or gain of contacts over largest energy", simulation)};
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase impact_case_list[] = {
     {"bounce", "a cube that falls on rigid ground", bounce},
     {"bar-impact", "two bars that meet: force, duration, impulse", bar_impact},
     {"joint-wave", "a wave through a joint", joint_wave},
@@ -251,7 +251,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> impact_cases() {
-  return cases;
+  return impact_case_list;
 }
 
 }  // namespace ashlar

@@ -6,11 +6,10 @@
 #include <numbers>
 
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_values.hpp"
 
 namespace ashlar {
 namespace {
-
-constexpr double gravity = 9.81;
 
 /// Components of the force between the first pair of blocks along the surface and normal to it, N.
 struct JointForce {
@@ -131,9 +130,9 @@ std::vector<VerificationCheck> dilation_under_load(const Placement& placement) {
     const double risen = placement.direction(Vector3::UnitZ()).dot(moved);
     const std::string where = multipliers ? ", multipliers" : ", springs";
     checks.push_back(check_relative("rise over slip" + where, risen / slip, dilation, 1e-4));
-    checks.push_back(check_relative("slip until rest, m" + where, slip,
-                                    speed * speed * (1.0 + friction * dilation) / (2.0 * gravity * friction),
-                                    1e-3));
+    checks.push_back(
+        check_relative("slip until rest, m" + where, slip,
+                       speed * speed * (1.0 + friction * dilation) / (2.0 * earth_gravity * friction), 1e-3));
     checks.push_back(
         check_energy("residual of a step or gain of contacts over largest energy" + where, simulation));
   }
@@ -183,7 +182,7 @@ std::vector<VerificationCheck> joint_damping(const Placement& placement) {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase joint_case_list[] = {
     {"shear-degradation", "a joint sheared beyond its peak, to and fro", shear_degradation},
     {"dilation-stiffness", "a joint that dilates between stiff blocks", dilation_under_stiffness},
     {"dilation-load", "a slab that rises as it slides", dilation_under_load},
@@ -193,7 +192,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> joint_cases() {
-  return cases;
+  return joint_case_list;
 }
 
 }  // namespace ashlar

@@ -251,7 +251,7 @@ std::vector<VerificationCheck> collision_momentum() {
   return checks;
 }
 
-constexpr std::array<VerificationCase, 7> cases = {{
+constexpr std::array<VerificationCase, 7> kinematics_case_list = {{
     {"moments-tetrahedron", "moments of the unit tetrahedron against a! b! c! / (a+b+c+3)!",
      moments_tetrahedron},
     {"free-fall", "polyhedra of order 1, 3, 6 fall by g t^2 / 2", free_fall},
@@ -265,7 +265,7 @@ constexpr std::array<VerificationCase, 7> cases = {{
 }  // namespace
 
 std::span<const VerificationCase> kinematics_cases() {
-  return cases;
+  return kinematics_case_list;
 }
 
 }  // namespace ashlar

@@ -15,15 +15,13 @@
 #include "apps/program/verify/sliding_wedge.hpp"
 #include "apps/program/verify/toppling_columns.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_values.hpp"
 #include "apps/program/verify/voussoir_arch.hpp"
 #include "solver/statics/limit_analysis.hpp"
 #include "solver/statics/support_movement.hpp"
 
 namespace ashlar {
 namespace {
-
-constexpr double gravity = 9.81;
-const Material rock{2500.0, 1e10, 0.2};
 
 using Build = std::function<void(ContactScene&)>;
 
@@ -54,11 +52,6 @@ LimitAnswer load_of(const JointLaw& law, const Build& add, const Placement& plac
 }
 
 /// Middle of a bracket; not a number unless it is narrow enough.
-double middle(const LimitBracket& bracket) {
-  const bool known = bracket.resolved && bracket.lower && bracket.upper;
-  return known ? std::sqrt(*bracket.lower * *bracket.upper) : std::nan("");
-}
-
 /// Adds both limits of a scene for which they coincide.
 void add_both(std::vector<VerificationCheck>& checks, const std::string& what, const LimitAnswer& answer,
               double unit, double reference, double tolerance) {
@@ -68,7 +61,7 @@ void add_both(std::vector<VerificationCheck>& checks, const std::string& what, c
 }
 
 BlockDefinition box(const Vector3& low, const Vector3& high) {
-  return define_block(Polyhedron(make_box(low, high)), rock, 1);
+  return define_block(Polyhedron(make_box(low, high)), common_rock, 1);
 }
 
 /// F = (W cos(alpha) tan(phi) + c A) / (W sin(alpha)).
@@ -83,7 +76,7 @@ std::vector<VerificationCheck> limit_plane(const Placement& placement) {
       scene.add_fixed(placed(Polyhedron(make_box({-6, -2, -1}, {6, 2, 0})), lowered));
       scene.add(placed(box({-1, -0.5, 0}, {1, 0.5, height}), lowered));
     };
-    const double weight = area * height * rock.density * gravity;
+    const double weight = area * height * common_rock.density * earth_gravity;
     add_both(checks, fmt::format("factor of safety, alpha {}, phi {}, c {} Pa", incline, phi, cohesion),
              strength_of(joint(tangent_of(phi), cohesion), add, placement), 1.0,
              (weight * std::cos(alpha) * tangent_of(phi) + cohesion * area) / (weight * std::sin(alpha)),
@@ -96,11 +89,12 @@ std::vector<VerificationCheck> limit_plane(const Placement& placement) {
 /// act normal to the line.
 std::vector<VerificationCheck> limit_wedge(const Placement& placement) {
   const SlidingWedge wedge;
-  const double weight = wedge.volume() * rock.density * gravity;
+  const double weight = wedge.volume() * common_rock.density * earth_gravity;
   std::vector<VerificationCheck> checks;
   for (const auto& [phi, cohesion] : {std::pair{30.0, 2e3}, {20.0, 4e3}, {45.0, 0.0}}) {
     const LimitAnswer answer = strength_of(
-        joint(tangent_of(phi), cohesion), [&](ContactScene& scene) { wedge.add_to(scene, rock); }, placement);
+        joint(tangent_of(phi), cohesion), [&](ContactScene& scene) { wedge.add_to(scene, common_rock); },
+        placement);
     const double reference =
         (wedge.grip * weight * tangent_of(phi) + cohesion * wedge.contact_area()) / (wedge.slip * weight);
     const std::string what = fmt::format("factor of safety, phi {}, c {} Pa", phi, cohesion);
@@ -123,7 +117,7 @@ std::vector<VerificationCheck> limit_arch_sliding(const Placement& placement) {
   std::vector<VerificationCheck> checks;
   for (const VoussoirArch& arch : {VoussoirArch{8, 0.15}, VoussoirArch{26, 0.15}}) {
     const LimitAnswer answer = strength_of(
-        joint(tangent_of(40)), [&](ContactScene& scene) { arch.add_to(scene, rock); }, placement);
+        joint(tangent_of(40)), [&](ContactScene& scene) { arch.add_to(scene, common_rock); }, placement);
     add_both(checks, fmt::format("factor of safety, {} voussoirs, t / R = {}", arch.count, arch.ratio),
              answer, 1.0, tangent_of(40) / arch.least_friction(), 2e-3);
   }
@@ -140,7 +134,7 @@ std::vector<VerificationCheck> limit_arch_thickness(const Placement& placement) 
         const double ratio = 0.5 * (low + high);
         const VoussoirArch arch{count, ratio};
         LimitAnalysis analysis = limit_analysis(
-            joint(tangent_of(60)), [&](ContactScene& scene) { arch.add_to(scene, rock); }, placement);
+            joint(tangent_of(60)), [&](ContactScene& scene) { arch.add_to(scene, common_rock); }, placement);
         const LimitTrial trial = released ? analysis.released({}) : analysis.associated({});
         (trial.outcome == LimitOutcome::stands ? high : low) = ratio;
       }
@@ -156,7 +150,7 @@ std::vector<VerificationCheck> limit_arch_thickness(const Placement& placement) 
 /// their heels lift the lintel without rotation, H h = (W_posts + 2 W_lintel) b/2.
 std::vector<VerificationCheck> limit_portal(const Placement& placement) {
   constexpr double b = 1.0, h = 4.0, span = 6.0, depth = 1.0;
-  const double specific = rock.density * gravity;
+  const double specific = common_rock.density * earth_gravity;
   const double limit = specific * (2.0 * b * h + 2.0 * span * depth) * b / (2.0 * h);
   const double unit = 0.3 * limit;
   const auto add = [&](ContactScene& scene) {
@@ -200,7 +194,7 @@ struct BondWall {
 /// (linear programme).
 std::vector<VerificationCheck> limit_wall_pushed(const Placement& placement) {
   const BondWall wall{6, 5, {0.5, 0.25, 0.25}};
-  const double course = 2.5 * 0.25 * 0.25 * rock.density * gravity;
+  const double course = 2.5 * 0.25 * 0.25 * common_rock.density * earth_gravity;
   std::vector<VerificationCheck> checks;
   for (const auto& [friction, limit] : {std::pair{0.75, 0.75 * course}, {5.0, 14093.19}}) {
     const double unit = 0.3 * limit;
@@ -231,7 +225,7 @@ std::vector<VerificationCheck> limit_wall_capacity(const Placement& placement) {
         joint(0.75),
         [&](ContactScene& scene) {
           wall.add_to(scene, [&](BlockDefinition& block, int, const Vector3& low, const Vector3& high) {
-            const double weight = (high - low).prod() * rock.density * gravity;
+            const double weight = (high - low).prod() * common_rock.density * earth_gravity;
             block.loads.push_back({Vector3(0.5 * (low + high)), false, {weight, 0, 0}, {}});
           });
         },
@@ -266,7 +260,7 @@ std::vector<VerificationCheck> limit_support_movement(const Placement& placement
   double error = path.places.size() > 10 ? 0.0 : 1.0;
   for (const MovedPlace& place : path.places) {
     const double reach = half + 0.5 * place.moved, rise = std::sqrt(bar * bar - reach * reach);
-    const double thrust = half * depth * rock.density * gravity * reach / (2.0 * rise);
+    const double thrust = half * depth * common_rock.density * earth_gravity * reach / (2.0 * rise);
     if (rise > 0.1 * depth) error = std::max(error, std::abs(place.thrust / thrust - 1.0));
   }
   return {check_relative("movement of a wall, m", path.lower, 2.0 * (bar - half), 1e-3),
@@ -284,14 +278,14 @@ std::vector<VerificationCheck> limit_twist(const Placement& placement) {
     slab.loads.push_back({Vector3(side, side / 2, depth), false, {0, force, 0}, {}});
     scene.add(std::move(slab));
   };
-  const double weight = side * side * depth * rock.density * gravity;
+  const double weight = side * side * depth * common_rock.density * earth_gravity;
   const double couple = 0.6 * weight * side / 6.0 * (std::sqrt(2.0) + std::asinh(1.0));
   std::vector<VerificationCheck> checks;
   add_both(checks, "couple on a slab, N m", load_of(joint(0.6), add, placement), force * side, couple, 1e-3);
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase limit_case_list[] = {
     {"limit-plane", "limit analysis: factor of safety of a block on a plane", limit_plane},
     {"limit-wedge", "limit analysis: factor of safety of a wedge", limit_wedge},
     {"limit-toppling", "limit analysis: factor of safety of toppling columns", limit_toppling},
@@ -308,7 +302,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> limit_cases() {
-  return cases;
+  return limit_case_list;
 }
 
 }  // namespace ashlar

@@ -318,7 +318,7 @@ std::vector<VerificationCheck> large_rotation_cantilever() {
   return checks;
 }
 
-constexpr std::array<VerificationCase, 8> cases = {{
+constexpr std::array<VerificationCase, 8> one_block_case_list = {{
     {"stress-patch", "uniform traction on polyhedra of order 1 to 8 gives uniform stress", stress_patch},
     {"pure-bending", "the stress of pure bending, and its equilibrium", pure_bending},
     {"self-weight-column", "a column settles under its own weight", self_weight_column},
@@ -334,7 +334,7 @@ constexpr std::array<VerificationCase, 8> cases = {{
 }  // namespace
 
 std::span<const VerificationCase> one_block_cases() {
-  return cases;
+  return one_block_case_list;
 }
 
 }  // namespace ashlar

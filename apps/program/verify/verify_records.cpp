@@ -86,7 +86,7 @@ std::vector<VerificationCheck> step_spectrum() {
                          found.pseudo_acceleration, 4.0, 1e-4)};
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase record_case_list[] = {
     {"spectrum-sine", "response spectrum of ten waves of a sine, below, at and above resonance",
      sine_spectrum},
     {"spectrum-step", "response spectrum of a constant acceleration, from velocities", step_spectrum},
@@ -95,7 +95,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> record_cases() {
-  return cases;
+  return record_case_list;
 }
 
 }  // namespace ashlar

@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_values.hpp"
 
 namespace ashlar {
 namespace {
-
-constexpr double gravity = 9.81;
 
 Vector3 velocity_of(const Simulation& simulation, int block) {
   const auto k = static_cast<std::size_t>(block);
@@ -65,7 +64,7 @@ std::array<double, 2> rebounds(Simulation& simulation, const Vector3& up, double
     const double speed = up.dot(velocity_of(simulation, 1));
     if (speed > 0.0 && last < 0.0) ++impacts;
     if (impacts > 2) break;
-    const double height = up.dot(centroid(simulation, 1)) - rest + 0.5 * speed * speed / gravity;
+    const double height = up.dot(centroid(simulation, 1)) - rest + 0.5 * speed * speed / earth_gravity;
     if (impacts > 0 && speed > 0.0) heights[static_cast<std::size_t>(impacts) - 1] = height;
     last = speed;
   }
@@ -89,7 +88,7 @@ std::vector<VerificationCheck> restitution_heights(const Placement& placement) {
     checks.push_back(check_relative("first height, m, " + where, heights[0], e * e * drop, 1e-3));
     checks.push_back(check_relative("second, " + where, heights[1], e * e * e * e * drop, 1e-2));
     checks.push_back(check_energy("energy, " + where, simulation));
-    const double lost = 0.008 * 2500 * gravity * drop * (1.0 - e * e * e * e);
+    const double lost = 0.008 * 2500 * earth_gravity * drop * (1.0 - e * e * e * e);
     if (e < 1.0)
       checks.push_back(
           check_relative("loss in two impacts, J, " + where, simulation.ledger().damping, lost, 1e-2));
@@ -212,7 +211,7 @@ std::vector<VerificationCheck> cradle(const Placement& placement) {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase restitution_case_list[] = {
     {"restitution-heights", "a cube that falls and rebounds twice", restitution_heights},
     {"restitution-none", "a cube that lands and stays", plastic_landing},
     {"restitution-exchange", "two equal cubes that meet in flight", restitution_exchange},
@@ -223,7 +222,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> restitution_cases() {
-  return cases;
+  return restitution_case_list;
 }
 
 }  // namespace ashlar

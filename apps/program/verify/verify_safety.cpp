@@ -8,14 +8,12 @@
 #include "apps/program/verify/sliding_wedge.hpp"
 #include "apps/program/verify/toppling_columns.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_values.hpp"
 #include "apps/program/verify/voussoir_arch.hpp"
 #include "apps/run/factor_analysis.hpp"
 
 namespace ashlar {
 namespace {
-
-constexpr double gravity = 9.81;
-const Material rock{2500.0, 1e10, 0.2};
 
 /// A joint whose cohesion does not depend on slip. @param cohesion Pa
 JointLaw plastic_joint(double friction, double cohesion) {
@@ -33,7 +31,7 @@ FactorBracket safety_of(const JointLaw& strength, double size, const std::functi
   return find_factor({}, [&](double factor) {
     ContactScene scene(placement);
     add(scene);
-    choose_as_for_statics(scene, size, rock.young_modulus, strength.friction / factor);
+    choose_as_for_statics(scene, size, common_rock.young_modulus, strength.friction / factor);
     scene.law->cohesion = strength.cohesion / factor;
     if (strength.residual)
       scene.law->residual = {strength.residual->friction / factor, strength.residual->cohesion / factor,
@@ -61,10 +59,10 @@ std::vector<VerificationCheck> plane_slide_safety(const Placement& placement) {
     const Placement lowered{slope(incline)};
     const auto add = [&](ContactScene& scene) {
       scene.add_fixed(placed(Polyhedron(make_box({-6, -2, -1}, {6, 2, 0})), lowered));
-      scene.add(
-          define_block(placed(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, height})), lowered), rock, 1));
+      scene.add(define_block(placed(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, height})), lowered),
+                             common_rock, 1));
     };
-    const double weight = 2.0 * height * rock.density * gravity, area = 2.0;
+    const double weight = 2.0 * height * common_rock.density * earth_gravity, area = 2.0;
     const double reference =
         (weight * std::cos(alpha) * tangent_of(phi) + cohesion * area) / (weight * std::sin(alpha));
     checks.push_back(check_factor(fmt::format("alpha {}, phi {}, c {} Pa", incline, phi, cohesion),
@@ -77,16 +75,17 @@ std::vector<VerificationCheck> plane_slide_safety(const Placement& placement) {
 /// F = ((N_A + N_B) tan(phi) + c (A_A + A_B)) / T.
 std::vector<VerificationCheck> wedge_safety(const Placement& placement) {
   const SlidingWedge wedge;
-  const double weight = wedge.volume() * rock.density * gravity;
+  const double weight = wedge.volume() * common_rock.density * earth_gravity;
   std::vector<VerificationCheck> checks;
   for (const auto& [phi, cohesion] : {std::array{30.0, 2e3}, {20.0, 4e3}, {45.0, 0.0}}) {
     const double reference =
         (wedge.grip * weight * tangent_of(phi) + cohesion * wedge.contact_area()) / (wedge.slip * weight);
-    checks.push_back(check_factor(fmt::format("phi {}, c {} Pa", phi, cohesion),
-                                  safety_of(
-                                      plastic_joint(tangent_of(phi), cohesion), std::cbrt(wedge.volume()),
-                                      [&](ContactScene& scene) { wedge.add_to(scene, rock); }, placement),
-                                  reference));
+    checks.push_back(
+        check_factor(fmt::format("phi {}, c {} Pa", phi, cohesion),
+                     safety_of(
+                         plastic_joint(tangent_of(phi), cohesion), std::cbrt(wedge.volume()),
+                         [&](ContactScene& scene) { wedge.add_to(scene, common_rock); }, placement),
+                     reference));
   }
   return checks;
 }
@@ -114,13 +113,13 @@ std::vector<VerificationCheck> arch_safety(const Placement& placement) {
     checks.push_back(
         check_factor(fmt::format("{} voussoirs, t / R = {}", arch.count, arch.ratio),
                      safety_of(
-                         law, size, [&](ContactScene& scene) { arch.add_to(scene, rock); }, placement),
+                         law, size, [&](ContactScene& scene) { arch.add_to(scene, common_rock); }, placement),
                      law.friction / arch.least_friction()));
   }
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase safety_case_list[] = {
     {"plane-slide-safety", "factor of safety of a block on a plane", plane_slide_safety},
     {"wedge-safety", "factor of safety of a wedge", wedge_safety},
     {"arch-safety", "factor of safety of semicircular arches that slide", arch_safety},
@@ -130,7 +129,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> safety_cases() {
-  return cases;
+  return safety_case_list;
 }
 
 }  // namespace ashlar

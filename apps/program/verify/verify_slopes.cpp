@@ -12,7 +12,7 @@ namespace ashlar {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-const Material stiff_rock{2700.0, 1e10, 0.2};
+const Material slope_rock{2700.0, 1e10, 0.2};
 
 /// A block on an incline, its lower edge at the origin. Degrees and m.
 struct BlockOnIncline {
@@ -30,7 +30,7 @@ Simulation on_incline(const BlockOnIncline& block, const SimulationSettings& set
   scene.settings = settings;
   *scene.law = {2e10 * stiffness,     1e10 * stiffness, tangent_of(friction_angle), 0.0, 0.0,
                 settings.area_springs};
-  Material material = stiff_rock;
+  Material material = slope_rock;
   material.young_modulus *= stiffness;
   const Placement lowered{slope(incline)};
   const double far = 3.0 * length;
@@ -116,7 +116,7 @@ Simulation wedge_on(const SlidingWedge& wedge, double friction_angle, const Simu
   scene.settings = settings;
   // Soft shear springs: stiff ones would act normal to the line during settling and jam the wedge a little.
   *scene.law = {2e10, 1e8, tangent_of(friction_angle), 0.0, 0.0, settings.area_springs};
-  wedge.add_to(scene, stiff_rock);
+  wedge.add_to(scene, slope_rock);
   return scene.build();
 }
 
@@ -171,7 +171,7 @@ std::vector<VerificationCheck> cyclic_shear() {
                          out && back ? simulation.ledger().friction - friction : nan, reference, 1e-6)};
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase slope_case_list[] = {
     {"incline-stick", "a block held by friction for 10 s", incline_stick},
     {"incline-slide", "blocks that slide down inclines", incline_slide},
     {"block-slide-or-topple", "modes of a block on an incline", slide_or_topple},
@@ -182,7 +182,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> slope_cases() {
-  return cases;
+  return slope_case_list;
 }
 
 }  // namespace ashlar

@@ -133,7 +133,7 @@ std::vector<VerificationCheck> goodman_bray(const Placement& placement) {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase stack_case_list[] = {
     {"goodman-bray", "toppling columns on a stepped base", goodman_bray},
     {"arch", "semicircular arches of 8 and 27 voussoirs at their least thickness, at rest and in motion",
      arch_case},
@@ -144,7 +144,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> stack_cases() {
-  return cases;
+  return stack_case_list;
 }
 
 }  // namespace ashlar

@@ -101,14 +101,14 @@ std::vector<VerificationCheck> base_record() {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase support_case_list[] = {
     {"base-record", "a base moved by an acceleration record", base_record},
 };
 
 }  // namespace
 
 std::span<const VerificationCase> support_cases() {
-  return cases;
+  return support_case_list;
 }
 
 }  // namespace ashlar

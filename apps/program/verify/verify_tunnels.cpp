@@ -135,7 +135,7 @@ std::vector<VerificationCheck> roof_wedge() {
   return checks;
 }
 
-constexpr VerificationCase cases[] = {
+constexpr VerificationCase tunnel_case_list[] = {
     {"kirsch", "stress and displacement of the wall of a circular tunnel in tied blocks", kirsch},
     {"roof-wedge", "a wedge in the roof of an excavation, clamped by horizontal stress", roof_wedge},
 };
@@ -143,7 +143,7 @@ constexpr VerificationCase cases[] = {
 }  // namespace
 
 std::span<const VerificationCase> tunnel_cases() {
-  return cases;
+  return tunnel_case_list;
 }
 
 }  // namespace ashlar

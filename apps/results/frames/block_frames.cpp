@@ -4,14 +4,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "apps/results/tables/append_vector.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
 namespace {
-
-void append(std::vector<double>& values, const Vector3& vector) {
-  values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
-}
 
 /// Data common to cells of all kinds; `Drawn` is DrawnSurface or DrawnSolid.
 template <class Drawn>

@@ -2,16 +2,11 @@
 
 #include <array>
 
+#include "apps/results/tables/append_vector.hpp"
 #include "apps/results/tables/contact_state.hpp"
 
 namespace ashlar {
-namespace {
-
-void append(std::vector<double>& values, const Vector3& vector) {
-  values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
-}
-
-}  // namespace
+namespace {}  // namespace
 
 UnstructuredGrid contact_frame(const Simulation& simulation) {
   UnstructuredGrid grid;

@@ -1,7 +1,6 @@
 #include "apps/results/tables/group_measure.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/check/water_checks.hpp"
@@ -14,8 +13,6 @@
 namespace ashlar {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// Mean displacement of the blocks of a level that are present, m; nan if there is none.
 Vector3 mean_displacement(const Simulation& simulation, const std::vector<DriftLevels::Place>& places) {
   Vector3 sum = Vector3::Zero();
@@ -26,7 +23,7 @@ Vector3 mean_displacement(const Simulation& simulation, const std::vector<DriftL
     sum += share * model.motion_of(simulation.states()[at(block)], point).displacement;
     weight += share;
   }
-  return weight > 0.0 ? Vector3(sum / weight) : Vector3(Vector3::Constant(none));
+  return weight > 0.0 ? Vector3(sum / weight) : Vector3(Vector3::Constant(not_measured));
 }
 
 /// The joints of a scene's [[measure]].
@@ -160,7 +157,7 @@ CrackWidths measured_cracks(const Simulation& simulation, const JointPolygons& j
   for (const JointPolygons::Polygon& polygon : joints.polygons)
     if (simulation.system().present(polygon.blocks[0]) && simulation.system().present(polygon.blocks[1]))
       add(simulation, polygon, widths);
-  if (!(widths.area > 0.0)) return {none, none, none, 0.0};
+  if (!(widths.area > 0.0)) return {not_measured, not_measured, not_measured, 0.0};
   return {widths.largest_opening, widths.moment / widths.area, widths.largest_slip, widths.open_area};
 }
 

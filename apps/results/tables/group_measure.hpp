@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,9 @@
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {
+
+/// Value of a measure that does not exist in a row.
+inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// The two levels of a storey.
 struct DriftLevels {

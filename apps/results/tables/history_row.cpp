@@ -2,15 +2,12 @@
 
 #include <initializer_list>
 
+#include "apps/results/tables/append_vector.hpp"
 #include "apps/results/tables/contact_state.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
 namespace {
-
-void append(std::vector<double>& values, const Vector3& vector) {
-  values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
-}
 
 /// xx, yy, zz, xy, yz, xz
 void append_stress(std::vector<double>& values, const Eigen::Matrix3d& s) {

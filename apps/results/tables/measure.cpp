@@ -2,15 +2,12 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 #include "geometry/index.hpp"
 
 namespace ashlar {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 int index_of(const Scene& scene, const std::string& name) {
   const auto block = std::find_if(scene.block.begin(), scene.block.end(),
@@ -64,12 +61,12 @@ PointMotion measured_motion(const Simulation& simulation, const Measure& measure
   if (simulation.system().present(measure.block))
     return simulation.blocks()[at(measure.block)].motion_of(simulation.states()[at(measure.block)],
                                                             measure.point);
-  const Vector3 nowhere = Vector3::Constant(none);
-  return {nowhere, nowhere, nowhere, Eigen::Matrix3d::Constant(none)};
+  const Vector3 nowhere = Vector3::Constant(not_measured);
+  return {nowhere, nowhere, nowhere, Eigen::Matrix3d::Constant(not_measured)};
 }
 
 Vector3 measured_turn(const Simulation& simulation, const Measure& measure) {
-  if (!simulation.system().present(measure.block)) return Vector3::Constant(none);
+  if (!simulation.system().present(measure.block)) return Vector3::Constant(not_measured);
   const Eigen::Matrix3d gradient = gradient_at(simulation.blocks()[at(measure.block)],
                                                simulation.states()[at(measure.block)], measure.point);
   const Eigen::JacobiSVD<Eigen::Matrix3d> parts(gradient, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -96,7 +93,7 @@ BoltMeasure measured_bolt(const Simulation& simulation, const Measure& measure) 
   const auto bolt =
       std::find_if(bolts.begin(), bolts.end(), [&](const Bolt& known) { return known.name == measure.bolt; });
   if (bolt == bolts.end() || !simulation.bolts()[static_cast<std::size_t>(bolt - bolts.begin())].installed())
-    return {none, none, BoltCondition::absent};
+    return {not_measured, not_measured, BoltCondition::absent};
   const BoltState& state = simulation.bolts()[static_cast<std::size_t>(bolt - bolts.begin())];
   return {largest_axial_force(state), largest_shear_force(state), condition_of(*bolt, state)};
 }
@@ -106,7 +103,7 @@ PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) 
   const auto record =
       std::find_if(simulation.contacts().begin(), simulation.contacts().end(),
                    [&, a = low, b = high](const PairRecord& pair) { return pair.a == a && pair.b == b; });
-  PairMeasure result{0.0, 0.0, none, none, 0.0};
+  PairMeasure result{0.0, 0.0, not_measured, not_measured, 0.0};
   if (record == simulation.contacts().end() || record->points.empty()) return result;
   Vector3 shear = Vector3::Zero();
   double area = 0.0, gap = 0.0, slip = 0.0;

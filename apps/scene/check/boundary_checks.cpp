@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-std::string in_words(const Vector3& vector) {
+std::string rounded_words(const Vector3& vector) {
   return fmt::format("[{:g}, {:g}, {:g}]", vector.x(), vector.y(), vector.z());
 }
 
@@ -56,7 +56,7 @@ class BoundaryCheck {
           fmt::format(
               "boundary meets no face of a moving block (point {}, normal {}), a plane of outer faces with "
               "the normal out of the blocks is needed{}",
-              in_words(plane.point), in_words(plane.normal),
+              rounded_words(plane.point), rounded_words(plane.normal),
               inward  ? "; faces in this plane have the opposite normal"
               : fixed ? "; blocks in this plane are fixed"
                       : ""));

@@ -32,7 +32,7 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < scene.prop.size(); ++k) check(scene.prop[k].name, fmt::format("prop.{}", k));
 }
 
-void warn_of_idle_keys(const Scene& scene, Diagnostics& diagnostics) {
+void warn_of_idle_support_keys(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < scene.bolt.size(); ++k) {
     if (!scene.bolt[k].shear_strength || scene.bolt[k].shear_stiffness > 0.0) continue;
     diagnostics.warning(scene.places.key(fmt::format("bolt.{}.shear_strength", k)),
@@ -142,7 +142,7 @@ void check_supports(const ExpandedScene& whole, const std::vector<std::optional<
   if (scene.bolt.empty() && scene.prop.empty()) return;
   check_names(scene, diagnostics);
   check_analysis(scene, diagnostics);
-  warn_of_idle_keys(scene, diagnostics);
+  warn_of_idle_support_keys(scene, diagnostics);
   std::set<std::string> reported;
   for (const SupportLine& line : lines) {
     if (!line.fault.empty()) {

@@ -20,7 +20,7 @@ namespace {
 /// Of the length of a line: an end this near to a block is on it.
 constexpr double end_share = 1e-6;
 
-std::string in_words(const Vector3& point) {
+std::string point_in_words(const Vector3& point) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", point.x(), point.y(), point.z());
 }
 
@@ -98,7 +98,7 @@ void find_blocks(const LinesInBlocks& blocks, SupportLine& line) {
       parted(blocks.spans(line.from, way / length, 0.0, length), 0.1 * line.thickness);
   if (spans.empty()) {
     line.fault = fmt::format("bolt \"{}\" meets no block (from {} to {}), a line through blocks is needed",
-                             line.name, in_words(line.from), in_words(line.to));
+                             line.name, point_in_words(line.from), point_in_words(line.to));
     return;
   }
   line.spans = std::move(spans);
@@ -128,7 +128,7 @@ void find_ends(const LinesInBlocks& blocks, const char* what, SupportLine& line)
   if (!first || !last) {
     line.fault =
         fmt::format("the end `{}` of {} \"{}\" is at no block ({}), a point on or in a block is needed",
-                    first ? "to" : "from", what, line.name, in_words(first ? line.to : line.from));
+                    first ? "to" : "from", what, line.name, point_in_words(first ? line.to : line.from));
   } else if (first->block == last->block) {
     line.fault =
         fmt::format("both ends of {} \"{}\" are at one block, two blocks are needed", what, line.name);

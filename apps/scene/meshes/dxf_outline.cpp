@@ -21,6 +21,8 @@ double level_area(const std::vector<Vector3>& points) {
   return sum;
 }
 
+}  // namespace
+
 void add_face(PolygonSoup& soup, const std::vector<Vector3>& corners) {
   for (const Vector3& corner : corners) {
     soup.corners.push_back(static_cast<int>(soup.points.size()));
@@ -28,8 +30,6 @@ void add_face(PolygonSoup& soup, const std::vector<Vector3>& corners) {
   }
   soup.face_ends.push_back(static_cast<int>(soup.corners.size()));
 }
-
-}  // namespace
 
 void add_prism(DxfOutline outline, PolygonSoup& soup) {
   std::vector<Vector3>& points = outline.points;

@@ -18,6 +18,9 @@ struct DxfOutline {
   int line = 0;                 ///< in the file
 };
 
+/// Adds a polygon with points of its own.
+void add_face(PolygonSoup& soup, const std::vector<Vector3>& corners);
+
 /// Adds the faces of the prism, outward. Lines (without thickness, or open) are passed over.
 /// @throws MeshFileError for arcs, another direction than (0, 0, 1), and less than three different corners
 void add_prism(DxfOutline outline, PolygonSoup& soup);

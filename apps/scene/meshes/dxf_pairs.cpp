@@ -11,12 +11,12 @@
 namespace ashlar {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view dxf_blanks = " \t\r\v\f";
 
 std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks);
+  const std::size_t begin = text.find_first_not_of(dxf_blanks);
   return begin == std::string_view::npos ? std::string_view()
-                                         : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+                                         : text.substr(begin, text.find_last_not_of(dxf_blanks) + 1 - begin);
 }
 
 /// Reads a text that is a single number. std::from_chars does not accept a plus sign.

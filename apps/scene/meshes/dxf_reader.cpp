@@ -44,14 +44,6 @@ struct Block {
   }
 };
 
-void add_face(PolygonSoup& soup, const std::vector<Vector3>& corners) {
-  for (const Vector3& corner : corners) {
-    soup.corners.push_back(static_cast<int>(soup.points.size()));
-    soup.points.push_back(corner);
-  }
-  soup.face_ends.push_back(static_cast<int>(soup.corners.size()));
-}
-
 /// A POLYLINE with its vertices.
 struct Polyline {
   std::string layer;

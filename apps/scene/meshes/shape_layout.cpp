@@ -8,14 +8,11 @@
 #include <utility>
 
 #include "geometry/exact/coordinate_limit.hpp"
+#include "geometry/lexicographic.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 
 namespace ashlar {
 namespace {
-
-bool before(const Vector3& a, const Vector3& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
 
 /// Sign of the determinant of the linear part, scaled so that products stay in the range of double precision.
 double orientation(const Eigen::Affine3d& transformation, const std::string& name) {
@@ -83,8 +80,9 @@ PolygonSoup equal_points_joined(PolygonSoup soup) {
   std::vector<int> order(soup.points.size());
   std::iota(order.begin(), order.end(), 0);
   // Sorts equal points side by side, in the order of the file.
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return before(point(a), point(b)) || (point(a) == point(b) && a < b); });
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return lexicographically_less(point(a), point(b)) || (point(a) == point(b) && a < b);
+  });
   std::vector<int> first(soup.points.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool repeated = k > 0 && point(order[k]) == point(order[k - 1]);

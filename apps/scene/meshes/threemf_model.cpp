@@ -12,13 +12,13 @@
 namespace ashlar {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_model(const std::string& what) {
   throw MeshFileError(what, 0, 0);  // the XML reader adds the place
 }
 
 std::string_view required(const char* element, const char* name, const XmlAttributes& attributes) {
   const auto value = attributes.find(name);
-  if (!value) refuse(fmt::format("{} without {}, which is needed", element, name));
+  if (!value) refuse_model(fmt::format("{} without {}, which is needed", element, name));
   return *value;
 }
 
@@ -30,7 +30,7 @@ double number(TextScanner& scan, const char* what) {
 
 double number(const char* element, const char* name, const XmlAttributes& attributes) {
   TextScanner scan(required(element, name, attributes), '\0');
-  if (!scan.next_line()) refuse(fmt::format("{} with an empty {}, a number is needed", element, name));
+  if (!scan.next_line()) refuse_model(fmt::format("{} with an empty {}, a number is needed", element, name));
   const double value = number(scan, name);
   scan.expect_end_of_line();
   return value;
@@ -39,7 +39,7 @@ double number(const char* element, const char* name, const XmlAttributes& attrib
 long long integer(const char* element, const char* name, const XmlAttributes& attributes, long long low,
                   long long high) {
   TextScanner scan(required(element, name, attributes), '\0');
-  if (!scan.next_line()) refuse(fmt::format("{} with an empty {}, a number is needed", element, name));
+  if (!scan.next_line()) refuse_model(fmt::format("{} with an empty {}, a number is needed", element, name));
   const long long value = scan.integer(name, low, high);
   scan.expect_end_of_line();
   return value;
@@ -51,7 +51,7 @@ Eigen::Affine3d transformation_of(const XmlAttributes& attributes) {
   const auto text = attributes.find("transform");
   if (!text) return result;
   TextScanner scan(*text, '\0');
-  if (!scan.next_line()) refuse("empty transform, 12 numbers are needed");
+  if (!scan.next_line()) refuse_model("empty transform, 12 numbers are needed");
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 3; ++column) result(column, row) = number(scan, "transform");
   scan.expect_end_of_line();
@@ -70,7 +70,7 @@ void check_extensions(const XmlAttributes& attributes) {
     const std::string_view space = attributes.find(std::string("xmlns:").append(prefix)).value_or(prefix);
     if (std::none_of(harmless_extensions.begin(), harmless_extensions.end(),
                      [&](std::string_view known) { return space.starts_with(known); }))
-      refuse(
+      refuse_model(
           fmt::format("required extension \"{}\", allowed are materials and production", printable(space)));
   }
 }
@@ -129,8 +129,8 @@ void ThreemfModel::start_model(std::string_view name, const XmlAttributes& attri
   const std::string space = local == 0 ? "xmlns" : fmt::format("xmlns:{}", name.substr(0, colon));
   const auto given = attributes.find(space);
   if (name.substr(local) != "model" || (given && *given != core))
-    refuse(fmt::format("root element {} of {}, allowed is model of {}", printable(name),
-                       given ? std::string(*given) : "no namespace", core));
+    refuse_model(fmt::format("root element {} of {}, allowed is model of {}", printable(name),
+                             given ? std::string(*given) : "no namespace", core));
   check_extensions(attributes);
   open_.push_back(Element::model);
 }
@@ -138,7 +138,7 @@ void ThreemfModel::start_model(std::string_view name, const XmlAttributes& attri
 void ThreemfModel::start_object(const XmlAttributes& attributes) {
   const long long id = integer("object", "id", attributes, 0, std::numeric_limits<int>::max());
   if (!number_of_id_.emplace(id, objects_.size()).second)
-    refuse(fmt::format("two objects with the id {}, each needs its own", id));
+    refuse_model(fmt::format("two objects with the id {}, each needs its own", id));
   objects_.push_back({fmt::format("Object_{}", id), {}, {}});
 }
 
@@ -150,7 +150,7 @@ void ThreemfModel::add_vertex(const XmlAttributes& attributes) {
 
 void ThreemfModel::add_triangle(const XmlAttributes& attributes) {
   PolygonSoup& mesh = objects_.back().mesh;
-  if (mesh.points.empty()) refuse("triangle of an object without vertices above it, which it needs");
+  if (mesh.points.empty()) refuse_model("triangle of an object without vertices above it, which it needs");
   const auto last = static_cast<long long>(mesh.points.size()) - 1;
   for (const char* name : {"v1", "v2", "v3"})
     mesh.corners.push_back(static_cast<int>(integer("triangle", name, attributes, 0, last)));
@@ -161,13 +161,13 @@ ThreemfModel::Use ThreemfModel::use_of(const char* what, const XmlAttributes& at
                                        std::size_t known) const {
   attributes.each([&](std::string_view name, std::string_view) {
     if (name == "path" || name.ends_with(":path"))
-      refuse(fmt::format("{} from another part of the package ({}), allowed are objects of this one", what,
-                         printable(name)));
+      refuse_model(fmt::format("{} from another part of the package ({}), allowed are objects of this one",
+                               what, printable(name)));
   });
   const long long id = integer(what, "objectid", attributes, 0, std::numeric_limits<int>::max());
   const auto found = number_of_id_.find(id);
   if (found == number_of_id_.end() || found->second >= known)
-    refuse(fmt::format("{} of object {}, allowed are objects that stand above it", what, id));
+    refuse_model(fmt::format("{} of object {}, allowed are objects that stand above it", what, id));
   return {found->second, transformation_of(attributes)};
 }
 

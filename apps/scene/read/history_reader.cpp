@@ -13,8 +13,8 @@
 namespace ashlar {
 namespace {
 
-constexpr std::array<const char*, 6> record_keys = {"file",  "time",     "values",
-                                                    "scale", "baseline", "resample"};
+constexpr std::array<const char*, 6> history_record_keys = {"file",  "time",     "values",
+                                                            "scale", "baseline", "resample"};
 constexpr const char* of_accelerations = "acceleration_history";
 
 /// @return true if the key is absent or valid
@@ -100,7 +100,7 @@ std::optional<HistoryRows> read_history(TomlTableReader& table, std::string_view
   HistoryRows history;
   const toml::table* content = table.table_at(key);
   const auto given = [&](const char* name) { return content->contains(name); };
-  if (content == nullptr || std::none_of(record_keys.begin(), record_keys.end(), given)) {
+  if (content == nullptr || std::none_of(history_record_keys.begin(), history_record_keys.end(), given)) {
     if (!table.read_history(key, history.rows, width, words, " or { file, time, values, scale }"))
       return std::nullopt;
     return history;

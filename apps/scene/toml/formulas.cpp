@@ -12,6 +12,7 @@
 #include <set>
 
 #include "apps/scene/model/nearest_name.hpp"
+#include "apps/scene/toml/digit.hpp"
 
 namespace ashlar {
 namespace {
@@ -71,10 +72,6 @@ bool is_constant(std::string_view name) {
 // Letters of the parser, in any locale.
 bool is_letter(char letter) {
   return letter == '_' || (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
-}
-
-bool is_digit(char letter) {
-  return letter >= '0' && letter <= '9';
 }
 
 // End of the number that begins at `at`: digits with a point and an exponent.

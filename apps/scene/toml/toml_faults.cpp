@@ -8,14 +8,12 @@
 #include <charconv>
 #include <cstddef>
 
+#include "apps/scene/toml/digit.hpp"
+
 namespace ashlar {
 namespace {
 
 constexpr std::array<std::string_view, 6> lists = {"block", "joint", "material", "measure", "fix", "load"};
-
-bool is_digit(char letter) {
-  return std::isdigit(static_cast<unsigned char>(letter)) != 0;
-}
 
 std::string_view line_of(std::string_view text, std::size_t number) {
   for (std::size_t k = 1; k < number; ++k) {

@@ -12,7 +12,7 @@
 #include "apps/scene/build/scene_loading.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::cut_slope_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -68,4 +68,4 @@ TEST(SteepJoints, StandsWhereFrictionDoesNotSettleAtOnce) {
 INSTANTIATE_TEST_SUITE_P(At, CutSlope, testing::Values(20.0, 28.0, 29.5, 32.0));
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cut_slope_test

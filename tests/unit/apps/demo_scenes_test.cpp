@@ -9,7 +9,7 @@
 #include "apps/scene/build/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::demo_scenes_test {
 namespace {
 
 std::vector<std::filesystem::path> scenes() {
@@ -62,4 +62,4 @@ INSTANTIATE_TEST_SUITE_P(All, DemoScene, ::testing::ValuesIn(scenes()),
                          [](const auto& scene) { return scene.param.stem().string(); });
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::demo_scenes_test

@@ -5,7 +5,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::depth_run_test {
 namespace {
 
 using ::testing::AllOf;
@@ -103,4 +103,4 @@ TEST_F(RunCommand, RunResumedPastItsEndInAGrooveIsTheRunThatNeverStopped) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::depth_run_test

@@ -7,7 +7,7 @@
 #include "support/drawn_vaults.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::drawn_vaults_test {
 namespace {
 
 using test_support::DrawnStone;
@@ -178,4 +178,4 @@ TEST_F(DrawnVault, StandsWithAnAllowedOverlap) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::drawn_vaults_test

@@ -9,7 +9,7 @@
 #include "apps/run/trial_folder.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::factor_run_test {
 namespace {
 
 using ::testing::AllOf;
@@ -243,4 +243,4 @@ TEST_F(FactorRun, FaultsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::factor_run_test

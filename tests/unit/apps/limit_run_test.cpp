@@ -8,7 +8,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::limit_run_test {
 namespace {
 
 using ::testing::AllOf;
@@ -126,4 +126,4 @@ box = { min = [0, 0, 5], max = [1, 1, 6] }
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::limit_run_test

@@ -9,7 +9,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::movement_run_test {
 namespace {
 
 using ::testing::AllOf;
@@ -104,4 +104,4 @@ TEST_F(MovementRun, RefusesWhatCannotBeMoved) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::movement_run_test

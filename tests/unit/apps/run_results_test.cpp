@@ -17,7 +17,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::run_results_test {
 namespace {
 
 using ::testing::AllOf;
@@ -275,4 +275,4 @@ TEST_F(RunResults, TimesArePrintedAsMultiplesOfTheStep) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::run_results_test

@@ -6,7 +6,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::sliding_friction_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -65,4 +65,4 @@ TEST_F(RunCommand, SpringsLoseNoFriction) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sliding_friction_test

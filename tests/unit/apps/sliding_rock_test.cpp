@@ -8,7 +8,7 @@
 #include "support/simulations.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::sliding_rock_test {
 namespace {
 
 class SlidingRock : public RunCommand {};
@@ -47,4 +47,4 @@ box = { min = [-2, -2, -1], max = [12, 12, 0] }
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sliding_rock_test

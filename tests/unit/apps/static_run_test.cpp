@@ -13,7 +13,7 @@
 #include "apps/program/run/run_command.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::static_run_test {
 namespace {
 
 using ::testing::AllOf;
@@ -360,4 +360,4 @@ load = [{ plane = { point = [10, 0, 0], normal = [1, 0, 0] }, force = [0, 0, -1]
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::static_run_test

@@ -9,7 +9,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::step_corpus_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -89,4 +89,4 @@ TEST(StepCorpusClaims, AreRefusedWhereTheyDoNotHold) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::step_corpus_test

@@ -10,7 +10,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::twisting_friction_test {
 namespace {
 
 const double mean_distance = (std::sqrt(2.0) + std::asinh(1.0)) / 6.0;
@@ -95,4 +95,4 @@ TEST_F(TwistingFriction, ASpinningSlabTurnsUntilFrictionHasStoppedIt) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::twisting_friction_test

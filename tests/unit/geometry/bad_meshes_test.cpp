@@ -13,7 +13,7 @@
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
-namespace ashlar {
+namespace ashlar::bad_meshes_test {
 namespace {
 
 const std::filesystem::path folder = std::filesystem::path(ASHLAR_DATA_DIR) / "corpora" / "bad_meshes";
@@ -103,4 +103,4 @@ TEST(BadMeshes, index_lists_every_file) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::bad_meshes_test

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace ashlar {
+namespace ashlar::contact_type_test {
 namespace {
 
 TEST(ContactType, NamesBothDimensionsTheSmallerFirst) {
@@ -41,4 +41,4 @@ TEST(ContactType, RelationsHaveNames) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_type_test

@@ -6,7 +6,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::changing_gravity_test {
 namespace {
 
 using test_support::block_of;
@@ -130,4 +130,4 @@ TEST(ChangingGravity, SettledBlocksBearThatOfTheStart) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::changing_gravity_test

@@ -6,7 +6,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_history_test {
 namespace {
 
 using test_support::block_of;
@@ -227,4 +227,4 @@ TEST(ContactHistory, ContactsFoundAnewNeverBringEnergyIn) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_history_test

@@ -4,7 +4,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::driven_support_test {
 namespace {
 
 using test_support::block_of;
@@ -144,4 +144,4 @@ TEST(DrivenSupport, SlowBeltInStatics) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::driven_support_test

@@ -8,7 +8,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::incremental_test {
 namespace {
 
 using test_support::block_of;
@@ -157,4 +157,4 @@ TEST(Incremental, StaticAnalysisIsRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::incremental_test

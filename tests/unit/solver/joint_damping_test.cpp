@@ -9,7 +9,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::joint_damping_test {
 namespace {
 
 using test_support::block_of;
@@ -189,4 +189,4 @@ TEST(JointDamping, NeverPullsAndNeverGivesEnergy) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::joint_damping_test

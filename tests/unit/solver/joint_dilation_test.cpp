@@ -10,7 +10,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::joint_dilation_test {
 namespace {
 
 using test_support::block_of;
@@ -244,4 +244,4 @@ TEST(DilatingSlip, WhatSlidesOnItsJointDoesNot) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::joint_dilation_test

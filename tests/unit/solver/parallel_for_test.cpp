@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace ashlar {
+namespace ashlar::parallel_for_test {
 namespace {
 
 TEST(ParallelFor, DoesEachPieceOnce) {
@@ -60,4 +60,4 @@ TEST(ParallelFor, ThrowsOnceWhereManyPiecesDo) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::parallel_for_test

@@ -6,7 +6,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::passing_test {
 namespace {
 
 using test_support::block_of;
@@ -103,4 +103,4 @@ TEST(Passing, CrossedRodsStopEachOther) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::passing_test

@@ -7,7 +7,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::quiet_boundary_test {
 namespace {
 
 using test_support::block_of;
@@ -173,4 +173,4 @@ TEST(QuietBoundary, ABlockAsPlacedWithoutForcesStays) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::quiet_boundary_test

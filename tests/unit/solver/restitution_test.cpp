@@ -11,7 +11,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::restitution_test {
 namespace {
 
 using test_support::block_of;
@@ -157,4 +157,4 @@ TEST(Restitution, ARunThatIsResumedBetweenTouchAndReboundTakesTheSameSteps) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::restitution_test

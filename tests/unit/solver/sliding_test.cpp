@@ -7,7 +7,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::sliding_test {
 namespace {
 
 using test_support::block_of;
@@ -238,4 +238,4 @@ INSTANTIATE_TEST_SUITE_P(OrdersAndSprings, OnEdgesWithoutFriction,
                          testing::Combine(testing::Values(1, 2), testing::Bool()));
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sliding_test

@@ -4,7 +4,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::softening_test {
 namespace {
 
 /// A block bonded to a floor, whose top is pulled off by 3 mm in 0.3 s: the bond fails at 1 mm.
@@ -44,4 +44,4 @@ TEST(Softening, ARunThatIsResumedOnTheFallingBranchTakesTheSameSteps) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::softening_test

@@ -8,7 +8,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::tie_test {
 namespace {
 
 using test_support::block_of;
@@ -187,4 +187,4 @@ TEST(Tie, MotionFromStaticsBeginsWithItsEnergy) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::tie_test

@@ -9,7 +9,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::turned_scene_test {
 namespace {
 
 using test_support::block_of;
@@ -277,4 +277,4 @@ TEST(TurnedScene, TiedBlocksThatFly) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::turned_scene_test

@@ -6,7 +6,7 @@
 #include "apps/results/text/json_text.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::check_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -84,4 +84,4 @@ TEST_F(CheckJson, AFileThatIsNotThereIsAFaultToo) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::check_command_test

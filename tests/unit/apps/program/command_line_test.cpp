@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::command_line_test {
 namespace {
 
 using ::testing::AllOf;
@@ -144,4 +144,4 @@ TEST(CommandLine, ScenesComeFromStandardInput) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::command_line_test

@@ -12,7 +12,7 @@
 #include "apps/run/run.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::accuracy_run_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST(AccuracyRun, TheChoiceCanBeEnded) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::accuracy_run_test

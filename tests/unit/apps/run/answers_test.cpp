@@ -13,7 +13,7 @@
 #include "apps/results/frames/vtu_reader.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::answers_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -174,4 +174,4 @@ TEST_F(Answers, MeasuresOfPairsAreChecked) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::answers_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace ashlar {
+namespace ashlar::checkpoint_schedule_test {
 namespace {
 
 /// Seconds at which a run with steps of a quarter of a second saves itself.
@@ -38,4 +38,4 @@ TEST(CheckpointSchedule, CountsFromWhenTheLastOneWasWritten) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::checkpoint_schedule_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::factor_search_test {
 namespace {
 
 /// Blocks that stand below a limit; trials within a relative distance of it are unknown.
@@ -127,4 +127,4 @@ TEST(FactorSearch, EndsWhenToldTo) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::factor_search_test

@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-namespace ashlar {
+namespace ashlar::interrupt_guard_test {
 namespace {
 
 void ignore(int) {}
@@ -111,4 +111,4 @@ TEST(InterruptGuard, LogsThatNobodyReadsDoNotEndTheProgram) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::interrupt_guard_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace ashlar {
+namespace ashlar::progress_test {
 namespace {
 
 using testing::EndsWith;
@@ -115,4 +115,4 @@ TEST(ProgressMode, QuietWins) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::progress_test

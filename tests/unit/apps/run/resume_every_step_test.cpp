@@ -8,7 +8,7 @@
 #include "apps/scene/build/build_simulation.hpp"
 #include "solver/run/checkpoint.hpp"
 
-namespace ashlar {
+namespace ashlar::resume_every_step_test {
 namespace {
 
 /// State of a run, without clock times and costs.
@@ -46,4 +46,4 @@ TEST(ResumeEveryStep, OfStonesThatBounce) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::resume_every_step_test

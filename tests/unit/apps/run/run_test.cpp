@@ -16,7 +16,7 @@
 #include "apps/results/tables/history_table.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::run_test {
 namespace {
 
 LoadedScene loaded(const std::string& text) {
@@ -349,4 +349,4 @@ TEST(Run, TablesThatOthersCutAreNoticed) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::run_test

@@ -6,7 +6,7 @@
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_difference_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -37,4 +37,4 @@ TEST_F(RunCommand, AResumeOfAChangedSceneNamesTheKey) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_difference_test

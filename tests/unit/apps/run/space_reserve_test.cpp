@@ -9,7 +9,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::space_reserve_test {
 namespace {
 
 using testing::AllOf;
@@ -53,4 +53,4 @@ TEST(SpaceReserve, NamesTheFolderWithoutSpace) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::space_reserve_test

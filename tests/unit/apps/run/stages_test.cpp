@@ -9,7 +9,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::stages_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -346,4 +346,4 @@ analysis = { type = "static" }
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::stages_test

@@ -9,7 +9,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::support_run_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -123,4 +123,4 @@ TEST_F(SupportRun, MovementsOfSupportsRefuseThem) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::support_run_test

@@ -10,7 +10,7 @@
 #include "apps/scene/build/build_simulation.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::trial_run_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -130,4 +130,4 @@ TEST(ContactChanges, ThePairThatChangesMostIsNamed) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::trial_run_test

@@ -6,7 +6,7 @@
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::gravity_history_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -108,4 +108,4 @@ TEST_F(RunCommand, GoesOnUnderGravityThatChanges) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::gravity_history_test

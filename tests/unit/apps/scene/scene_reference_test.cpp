@@ -13,7 +13,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_reference_test {
 namespace {
 
 const std::string least_scene = scene_with_every_table();
@@ -225,4 +225,4 @@ TEST(SceneReference, DefaultsAreTheReaders) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_reference_test

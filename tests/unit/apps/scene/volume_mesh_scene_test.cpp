@@ -9,7 +9,7 @@
 #include "apps/scene/build/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::volume_mesh_scene_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -147,4 +147,4 @@ TEST_F(VolumeMeshScene, FaultsAreAtTheFile) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::volume_mesh_scene_test

@@ -14,7 +14,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::closest_point_test {
 namespace {
 
 // Brute force in rational numbers: the nearest of all points of all triangles.
@@ -185,4 +185,4 @@ TEST(ClosestPoint, NotFinite) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::closest_point_test

@@ -9,7 +9,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::distance_minima_test {
 namespace {
 
 /// A minimum as its features' dimensions, the vector from B to A and the places on A, m.
@@ -188,4 +188,4 @@ TEST(DistanceMinima, AValleyIsNearestOnlyToWhatTouchesIt) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::distance_minima_test

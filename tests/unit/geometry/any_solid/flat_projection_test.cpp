@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ashlar {
+namespace ashlar::flat_projection_test {
 namespace {
 
 TEST(FlatProjection, BoundsOfACoordinateEncloseItsExactValueClosely) {
@@ -30,4 +30,4 @@ TEST(FlatProjection, ANumberWithoutErrorIsItsOwnBound) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::flat_projection_test

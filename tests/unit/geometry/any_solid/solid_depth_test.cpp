@@ -10,7 +10,7 @@
 #include "support/sample_meshes.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::solid_depth_test {
 namespace {
 
 constexpr double resolution = 1e-6;
@@ -175,4 +175,4 @@ TEST(SolidDepth, NothingIsInABallThatIsClear) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::solid_depth_test

@@ -10,7 +10,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::solid_relation_test {
 namespace {
 
 SolidRelation relate(const TriangleMesh& a, const TriangleMesh& b) {
@@ -116,4 +116,4 @@ TEST(SolidRelation, RidgeInAValley) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::solid_relation_test

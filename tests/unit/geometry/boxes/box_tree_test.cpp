@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::box_tree_test {
 namespace {
 
 // Whole numbers below 2^10: squared distances are exact.
@@ -73,4 +73,4 @@ TEST(PackedBoxTree, RefusesLeavesOfSeveralBoxes) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::box_tree_test

@@ -8,7 +8,7 @@
 
 #include "support/placed_bodies.hpp"
 
-namespace ashlar {
+namespace ashlar::cell_overlap_test {
 namespace {
 
 using test_support::PlacedBody;
@@ -72,4 +72,4 @@ TEST(CellOverlap, RimsOnEachOtherCrossOnBoth) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cell_overlap_test

@@ -8,7 +8,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_report_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -233,4 +233,4 @@ TEST(ContactReport, SolidsThatAreReallyConcaveHaveNoShape) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_report_test

@@ -14,7 +14,7 @@
 #include "support/placed_bodies.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_search_test {
 namespace {
 
 const ContactLimits limits{0.02, 0.02, 10.0 * std::numbers::pi / 180.0};
@@ -309,4 +309,4 @@ TEST(ContactSearch, TheAreaOfACornerDoesNotDependOnTheTrianglesOfItsFaces) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_search_test

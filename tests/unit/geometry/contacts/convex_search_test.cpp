@@ -11,7 +11,7 @@
 #include "support/placed_bodies.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::convex_search_test {
 namespace {
 
 using Body = test_support::PlacedBody;
@@ -299,4 +299,4 @@ TEST(ConvexSearch, TypeIsThatOfTheReportAndNoCrossingIsWithoutContact) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::convex_search_test

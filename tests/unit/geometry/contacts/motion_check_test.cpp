@@ -9,7 +9,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::motion_check_test {
 namespace {
 
 const MotionLimits limits{1e-6, 1e-3};
@@ -227,4 +227,4 @@ TEST(MotionCheck, RandomFlightsAreCaughtBeforeTheyTouch) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::motion_check_test

@@ -9,7 +9,7 @@
 
 #include "support/placed_bodies.hpp"
 
-namespace ashlar {
+namespace ashlar::moving_features_test {
 namespace {
 
 using test_support::box;
@@ -91,4 +91,4 @@ TEST(MovingFeatures, CellsAtAPointAreThoseWithThatCorner) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::moving_features_test

@@ -9,7 +9,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/placed_bodies.hpp"
 
-namespace ashlar {
+namespace ashlar::overlap_vertices_test {
 namespace {
 
 const ContactLimits limits{0.01, 0.01, 0.1};
@@ -99,4 +99,4 @@ TEST(FaceOverlap, DividedFacesHaveEveryCornerOfTheDivisionOnce) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::overlap_vertices_test

@@ -8,7 +8,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::solid_contacts_test {
 namespace {
 
 using ::testing::UnorderedElementsAre;
@@ -234,4 +234,4 @@ TEST(SolidContacts, NoneWhereTheSolidsCross) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::solid_contacts_test

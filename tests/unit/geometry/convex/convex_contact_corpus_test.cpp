@@ -14,7 +14,7 @@
 
 #include "geometry/convex/convex_contact.hpp"
 
-namespace ashlar {
+namespace ashlar::convex_contact_corpus_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -182,4 +182,4 @@ TEST(ConvexContactCorpus, EveryFieldOfEveryCase) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::convex_contact_corpus_test

@@ -10,7 +10,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::convex_contact_test {
 namespace {
 
 ConvexShape box(const Vector3& low, const Vector3& high) {
@@ -237,4 +237,4 @@ TEST(Resolution, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::convex_contact_test

@@ -8,7 +8,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::convex_shape_test {
 namespace {
 
 TriangleMesh cube() {
@@ -94,4 +94,4 @@ TEST(ConvexShape, RefusesWhatIsNoConvexSolid) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::convex_shape_test

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-namespace ashlar {
+namespace ashlar::overlap_polygon_test {
 namespace {
 
 // (dimension on a, dimension on b) of each vertex, in the order of the loop.
@@ -114,4 +114,4 @@ TEST(OverlapPolygon, ProjectedHullDropsInnerAndCollinearPoints) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::overlap_polygon_test

@@ -4,7 +4,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::plane_heights_test {
 namespace {
 
 // The normals of a box of three by one by one are products of two edges: 1 for the ends, 3 for the sides.
@@ -50,4 +50,4 @@ TEST(PlaneHeights, TheBoundHolds) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::plane_heights_test

@@ -12,7 +12,7 @@
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::cut_any_solid_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -313,4 +313,4 @@ TEST(CutAnySolid, AlongTurnedSurfaces) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cut_any_solid_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::cut_plane_test {
 namespace {
 
 TEST(CutPlane, MultiplesOf90DegreesAreExact) {
@@ -35,4 +35,4 @@ TEST(CutPlane, DipsTowardsTheDipDirection) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cut_plane_test

@@ -11,7 +11,7 @@
 #include "geometry/cutting/small_pieces.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::cut_solid_test {
 namespace {
 
 const CutSolid::Choice always = [](int) { return true; };
@@ -397,4 +397,4 @@ TEST(SmallPieces, HexagonalJointsLeavePrisms) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cut_solid_test

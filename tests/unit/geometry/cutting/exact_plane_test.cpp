@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-namespace ashlar {
+namespace ashlar::exact_plane_test {
 namespace {
 
 TEST(ExactPlane, TellsPointsAnUlpApart) {
@@ -91,4 +91,4 @@ TEST(ExactPlane, HugeAndTinyCoordinates) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::exact_plane_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::joint_pyramid_test {
 namespace {
 
 IntegerVector vector(long x, long y, long z) {
@@ -71,4 +71,4 @@ TEST(JointPyramid, ModesHaveNames) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::joint_pyramid_test

@@ -11,7 +11,7 @@
 #include "support/sample_meshes.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::tetrahedra_test {
 namespace {
 
 double volume_of(const TetrahedronMesh& mesh, const std::array<int, 4>& cell) {
@@ -151,4 +151,4 @@ TEST(Tetrahedra, NoneIsFlatterThanItsSolid) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::tetrahedra_test

@@ -8,7 +8,7 @@
 #include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/rational_vector.hpp"
 
-namespace ashlar {
+namespace ashlar::direction_predicates_test {
 namespace {
 
 // Points of a grid of 2^-10 of which coordinates are replaced by the rounding error of a zero cosine, at a
@@ -165,4 +165,4 @@ TEST_P(Ladders, Bounds) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::direction_predicates_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::double_double_test {
 namespace {
 
 TEST(TrackedNumber, DoubtIsAdmitted) {
@@ -59,4 +59,4 @@ TEST(DoubleDouble, RoundingIsRefusedNearTheMiddleOfTwoDoubles) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::double_double_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace ashlar {
+namespace ashlar::exact_rounding_test {
 namespace {
 
 struct Rational {
@@ -64,4 +64,4 @@ TEST(ExactRounding, SquareRoots) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::exact_rounding_test

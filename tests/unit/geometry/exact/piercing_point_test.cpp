@@ -7,7 +7,7 @@
 #include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/direction_predicates.hpp"
 
-namespace ashlar {
+namespace ashlar::piercing_point_test {
 namespace {
 
 NumberVector<DoubleDouble> exact_vector(double x, double y, double z) {
@@ -55,4 +55,4 @@ TEST(PiercingPoint, RoundsAsRationalArithmeticDoes) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::piercing_point_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::predicate_ladder_test {
 namespace {
 
 TEST(NumericRange, KnowsTheFirstAndLastBit) {
@@ -41,4 +41,4 @@ TEST(NumericRange, LowBitsCloseTheHighDegreesOnly) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::predicate_ladder_test

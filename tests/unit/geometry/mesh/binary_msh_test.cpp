@@ -8,7 +8,7 @@
 #include "geometry/mesh/volume_mesh.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
-namespace ashlar {
+namespace ashlar::binary_msh_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -141,4 +141,4 @@ TEST(BinaryMshFaults, CountsAreNotTrusted) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::binary_msh_test

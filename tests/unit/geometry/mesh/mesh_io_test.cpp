@@ -17,7 +17,7 @@
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::mesh_io_test {
 namespace {
 
 using testing::ElementsAre;
@@ -346,4 +346,4 @@ TEST_F(MeshIo, folder_and_missing_file_are_refused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::mesh_io_test

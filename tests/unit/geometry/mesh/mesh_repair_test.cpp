@@ -5,7 +5,7 @@
 #include "geometry/solid/polyhedron.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::mesh_repair_test {
 namespace {
 
 using ::testing::SizeIs;
@@ -93,4 +93,4 @@ TEST(RoundedVolume, TellsInsideFromOutside) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::mesh_repair_test

@@ -11,7 +11,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::polygon_triangulation_test {
 namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
@@ -193,4 +193,4 @@ TEST(PolygonTriangulation, StopsWhenItsTestsAreSpent) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::polygon_triangulation_test

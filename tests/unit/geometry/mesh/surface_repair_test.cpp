@@ -7,7 +7,7 @@
 #include "geometry/solid/polyhedron.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::surface_repair_test {
 namespace {
 
 TEST(SurfaceRepair, LeavesASolidAsItIs) {
@@ -62,4 +62,4 @@ TEST(SurfaceRepair, LeavesOutWhatIsDouble) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::surface_repair_test

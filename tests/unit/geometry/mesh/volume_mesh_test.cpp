@@ -6,7 +6,7 @@
 #include "geometry/solid/polyhedron.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::volume_mesh_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -285,4 +285,4 @@ TEST(VolumeMesh, FilesAreReadByTheirEnding) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::volume_mesh_test

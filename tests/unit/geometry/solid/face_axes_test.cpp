@@ -6,7 +6,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::face_axes_test {
 namespace {
 
 TEST(FaceAxes, LieAlongTheLargestFaceAndItsLongestSide) {
@@ -39,4 +39,4 @@ TEST(FaceAxes, TakeTheFirstOfEqualFaces) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::face_axes_test

@@ -12,7 +12,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::flat_regions_test {
 namespace {
 
 /// The triangles of a fan of four around a point above the middle of a square, and below it: a roof and a
@@ -101,4 +101,4 @@ TEST(Polyhedron, AResolutionThatChangesNothingLeavesFacesBitForBit) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::flat_regions_test

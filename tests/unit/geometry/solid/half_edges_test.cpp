@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::half_edges_test {
 namespace {
 
 using testing::ElementsAre;
@@ -78,4 +78,4 @@ TEST(HalfEdges, TrianglesThatNameAPointTwiceHaveNone) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::half_edges_test

@@ -7,7 +7,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::hull_solid_test {
 namespace {
 
 /// Corners of a box, and points on its edges and faces.
@@ -64,4 +64,4 @@ TEST(HullSolid, ThinnerThanTheResolutionIsStillASolid) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::hull_solid_test

@@ -9,7 +9,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::hull_surface_test {
 namespace {
 
 TEST(HullSurface, GroupsTheTrianglesOfABox) {
@@ -55,4 +55,4 @@ TEST(HullSurface, RefusesAnOpenMesh) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::hull_surface_test

@@ -4,7 +4,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::line_in_solid_test {
 namespace {
 
 using Parts = std::vector<std::array<double, 2>>;
@@ -49,4 +49,4 @@ TEST(LineInSolid, LeavesANotch) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::line_in_solid_test

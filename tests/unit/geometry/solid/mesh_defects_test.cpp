@@ -11,7 +11,7 @@
 #include "geometry/solid/polyhedron.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::mesh_defects_test {
 namespace {
 
 using test_support::join;
@@ -227,4 +227,4 @@ TEST(MeshDefects, double_winding_is_a_self_intersection) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::mesh_defects_test

@@ -12,7 +12,7 @@
 #include "support/sample_meshes.hpp"
 #include "unit/geometry/solid/expect_consistent.hpp"
 
-namespace ashlar {
+namespace ashlar::polyhedron_copies_test {
 namespace {
 
 using test_support::expect_consistent;
@@ -89,4 +89,4 @@ TEST(Polyhedron, other_triangles_keep_faces_and_edges) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::polyhedron_copies_test

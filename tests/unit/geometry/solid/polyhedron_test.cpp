@@ -12,7 +12,7 @@
 #include "support/sample_meshes.hpp"
 #include "unit/geometry/solid/expect_consistent.hpp"
 
-namespace ashlar {
+namespace ashlar::polyhedron_test {
 namespace {
 
 using test_support::expect_consistent;
@@ -312,4 +312,4 @@ TEST(Polyhedron, refused_mesh_carries_all_its_defects) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::polyhedron_test

@@ -5,7 +5,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::rounded_convexity_test {
 namespace {
 
 /// A unit cube whose top has a corner that is lower by `dent`, so that the diagonal to it is a reflex edge, with
@@ -43,4 +43,4 @@ TEST(RoundedConvexity, AConvexSolidIsConvex) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::rounded_convexity_test

@@ -10,7 +10,7 @@
 #include "geometry/solid/mesh_defects.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::self_intersection_test {
 namespace {
 
 using testing::ElementsAre;
@@ -134,4 +134,4 @@ TEST(SelfIntersection, number_of_pairs_is_limited) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::self_intersection_test

@@ -5,7 +5,7 @@
 #include "geometry/solid/hull_solid.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::shape_loss_test {
 namespace {
 
 TEST(ShapeLoss, ASolidOfExactCoordinatesIsNeverLost) {
@@ -26,4 +26,4 @@ TEST(ShapeLoss, ANeedleIsLostWhereItsFacesCloseUp) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::shape_loss_test

@@ -11,7 +11,7 @@
 
 #include "geometry/solid/polyhedron.hpp"
 
-namespace ashlar {
+namespace ashlar::shapes_test {
 namespace {
 
 using testing::SizeIs;
@@ -184,4 +184,4 @@ TEST(ConvexHull, numbers_points_as_they_were_given) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::shapes_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace ashlar {
+namespace ashlar::bernstein_triangle_test {
 namespace {
 
 constexpr std::array<bool, 3> no_rim = {false, false, false};
@@ -141,4 +141,4 @@ TEST(BernsteinForm, RefusesOtherOrders) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::bernstein_triangle_test

@@ -9,7 +9,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::sub_face_refinement_test {
 namespace {
 
 const double infinite = std::numeric_limits<double>::infinity();
@@ -256,4 +256,4 @@ TEST(AdaptiveSurface, AToleranceBelowRoundingEndsAtTheLargestDivision) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sub_face_refinement_test

@@ -6,7 +6,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::surface_distance_test {
 namespace {
 
 /// A lower bound of the distance of two boxes, both turned.
@@ -49,4 +49,4 @@ TEST(SurfaceDistance, OfSurfacesThatMeetIsNone) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::surface_distance_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::height_field_test {
 namespace {
 
 TEST(HeightField, TrianglesOfASquareCoverIt) {
@@ -28,4 +28,4 @@ TEST(HeightField, RefusesWhatIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::height_field_test

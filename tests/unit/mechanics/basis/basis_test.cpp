@@ -10,7 +10,7 @@
 #include "mechanics/basis/moments.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::basis_test {
 namespace {
 
 // By a quadrature that is independent of the program's moments.
@@ -166,4 +166,4 @@ TEST(PolynomialBasis, CompactShapesLoseNothingToSpeakOf) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::basis_test

@@ -5,7 +5,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "mechanics/basis/basis.hpp"
 
-namespace ashlar {
+namespace ashlar::field_moments_test {
 namespace {
 
 /// 2 x 1 x 3, V = 6, centroid (2, 2.5, -0.5). Integral of (x - centroid)_i^2 is V l_i^2 / 12: 2, 1/2, 9/2.
@@ -67,4 +67,4 @@ TEST(FieldMoments, SpinOfABoxIsItsInertiaTimesTheTurn) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::field_moments_test

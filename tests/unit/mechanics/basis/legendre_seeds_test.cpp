@@ -7,7 +7,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "mechanics/basis/multi_index.hpp"
 
-namespace ashlar {
+namespace ashlar::legendre_seeds_test {
 namespace {
 
 constexpr int order = 3;
@@ -128,4 +128,4 @@ TEST(DoubleDoubles, AreRoundedAndConverted) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::legendre_seeds_test

@@ -10,7 +10,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::moments_test {
 namespace {
 
 // Without expressions that hold references to temporary values.
@@ -158,4 +158,4 @@ TEST(Moments, RefusesADegreeOutOfRange) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::moments_test

@@ -5,7 +5,7 @@
 #include "mechanics/material/elasticity.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::monomial_basis_test {
 namespace {
 
 /// Coefficients of the monomials in the orthonormal basis: both span the same space.
@@ -50,4 +50,4 @@ TEST(MonomialBasis, ValuesOfTheUnitCube) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::monomial_basis_test

@@ -12,7 +12,7 @@
 #include "mechanics/basis/moments.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::quadrature_test {
 namespace {
 
 double integrate(const SegmentRule& rule, int power) {
@@ -276,4 +276,4 @@ TEST(Quadrature, VolumeRuleGivesTheExactMoments) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::quadrature_test

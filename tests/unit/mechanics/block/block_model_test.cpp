@@ -7,7 +7,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::block_model_test {
 namespace {
 
 using test_support::block_of;
@@ -192,4 +192,4 @@ TEST(BlockModel, ASlidingSupportHasNoEquilibrium) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::block_model_test

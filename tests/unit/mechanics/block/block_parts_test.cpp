@@ -6,7 +6,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::block_parts_test {
 namespace {
 
 const Material rock{2000.0, 3e9, 0.25};
@@ -108,4 +108,4 @@ TEST(BlockParts, SupportedPointsMoveWithTheShape) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::block_parts_test

@@ -9,7 +9,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::incremental_block_test {
 namespace {
 
 const Material rock{2000.0, 3e9, 0.25};
@@ -170,4 +170,4 @@ TEST(IncrementalBlock, ABlockTurnedInsideOutIsRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::incremental_block_test

@@ -8,7 +8,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::material_map_test {
 namespace {
 
 BlockModel block_of_order(int order) {
@@ -69,4 +69,4 @@ TEST(MaterialMap, ABlockTurnedInsideOutHasNone) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::material_map_test

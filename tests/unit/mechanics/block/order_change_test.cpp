@@ -5,7 +5,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::order_change_test {
 namespace {
 
 BlockModel model(const std::shared_ptr<const Polyhedron>& solid, int order, bool clamped) {
@@ -77,4 +77,4 @@ TEST(OrderChange, RefusesModelsOfOtherSolids) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::order_change_test

@@ -8,7 +8,7 @@
 #include "mechanics/block/block_model.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::rigid_body_test {
 namespace {
 
 const BlockModel& needle() {
@@ -83,4 +83,4 @@ TEST(RigidBody, OtherChangesBecomeRigid) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::rigid_body_test

@@ -4,7 +4,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::rigid_motions_test {
 namespace {
 
 std::string left_by(const std::vector<BlockSupport>& supports, int order) {
@@ -41,4 +41,4 @@ TEST(RigidMotions, AreNamedAsTheSupportsLeaveThem) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::rigid_motions_test

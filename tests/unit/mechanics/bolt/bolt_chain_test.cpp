@@ -7,7 +7,7 @@
 #include "mechanics/bolt/bolt_kinematics.hpp"
 #include "support/check_derivatives.hpp"
 
-namespace ashlar {
+namespace ashlar::bolt_chain_test {
 namespace {
 
 constexpr double k = 4e8;   // N/m per m
@@ -166,4 +166,4 @@ TEST(BoltChain, BlocksThatAreAbsentDoNotHoldIt) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::bolt_chain_test

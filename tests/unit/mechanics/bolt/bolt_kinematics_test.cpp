@@ -4,7 +4,7 @@
 
 #include "support/check_derivatives.hpp"
 
-namespace ashlar {
+namespace ashlar::bolt_kinematics_test {
 namespace {
 
 using Eigen::Matrix3Xd;
@@ -101,4 +101,4 @@ TEST(BoltKinematics, OfTwoEndsIsTheChangeOfTheirDistance) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::bolt_kinematics_test

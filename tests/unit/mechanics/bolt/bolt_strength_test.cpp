@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::bolt_strength_test {
 namespace {
 
 BoltLaw grouted_law() {
@@ -75,4 +75,4 @@ TEST(BoltStrength, IsUnlimitedWithoutAStrengthThatEndsIt) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::bolt_strength_test

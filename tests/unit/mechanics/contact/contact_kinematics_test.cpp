@@ -8,7 +8,7 @@
 #include "support/check_derivatives.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_kinematics_test {
 namespace {
 
 using test_support::block_of;
@@ -219,4 +219,4 @@ TEST(ContactKinematics, FlatSubFacesKeepTheirNormal) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_kinematics_test

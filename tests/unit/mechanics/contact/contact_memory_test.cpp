@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace ashlar {
+namespace ashlar::contact_memory_test {
 namespace {
 
 constexpr double never = -std::numeric_limits<double>::infinity();
@@ -229,4 +229,4 @@ TEST(ContactMemory, FrictionOfTwoFacesDoesNotTurnBecauseTheirPlanesDiffer) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_memory_test

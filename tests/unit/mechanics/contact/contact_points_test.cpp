@@ -9,7 +9,7 @@
 #include "geometry/index.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_points_test {
 namespace {
 
 using test_support::block_of;
@@ -116,4 +116,4 @@ TEST(ContactPoints, CountGapsOfCrossedEdgesFromWhereTheyWerePlaced) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_points_test

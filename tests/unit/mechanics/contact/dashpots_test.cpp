@@ -7,7 +7,7 @@
 #include "mechanics/contact/joint_law.hpp"
 #include "support/check_derivatives.hpp"
 
-namespace ashlar {
+namespace ashlar::dashpots_test {
 namespace {
 
 /// kn = 2e8 N/m, ks = 1e8 N/m, dashpots of half of them over the step.
@@ -124,4 +124,4 @@ TEST(Dashpots, MeanForcesLoseWhatTheyDamp) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::dashpots_test

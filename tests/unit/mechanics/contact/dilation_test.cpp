@@ -8,7 +8,7 @@
 #include "mechanics/contact/joint_law.hpp"
 #include "support/check_derivatives.hpp"
 
-namespace ashlar {
+namespace ashlar::dilation_test {
 namespace {
 
 constexpr double kn = 2e8, ks = 1e8;  // N/m, of 0.1 m^2
@@ -183,4 +183,4 @@ TEST(Dilation, ALandingPointDilatesWhileItIsClosed) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::dilation_test

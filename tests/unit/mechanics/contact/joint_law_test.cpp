@@ -8,7 +8,7 @@
 #include "support/check_derivatives.hpp"
 #include "unit/mechanics/contact/sample_joint.hpp"
 
-namespace ashlar {
+namespace ashlar::joint_law_test {
 namespace {
 
 using test_support::law;
@@ -264,4 +264,4 @@ TEST(JointLaw, CohesionBearsSlipOnBothSidesOfTheSurface) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::joint_law_test

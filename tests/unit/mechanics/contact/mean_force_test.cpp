@@ -11,7 +11,7 @@
 #include "support/check_derivatives.hpp"
 #include "unit/mechanics/contact/sample_joint.hpp"
 
-namespace ashlar {
+namespace ashlar::mean_force_test {
 namespace {
 
 using test_support::law;
@@ -189,4 +189,4 @@ TEST(JointLaw, APointThatJustTouchesOverAStepRubsWhereItIsPressed) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::mean_force_test

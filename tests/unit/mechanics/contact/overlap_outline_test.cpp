@@ -8,7 +8,7 @@
 #include "support/placed_bodies.hpp"
 #include "support/sample_solids.hpp"
 
-namespace ashlar {
+namespace ashlar::overlap_outline_test {
 namespace {
 
 using Body = test_support::PlacedBody;
@@ -155,4 +155,4 @@ TEST(OverlapOutline, ANarrowOverlapHasCornersToo) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::overlap_outline_test

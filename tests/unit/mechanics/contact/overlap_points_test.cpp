@@ -14,7 +14,7 @@
 #include "mechanics/block/block_surface.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::overlap_points_test {
 namespace {
 
 /// A box with the other diagonals: the mirror image of the box that the mirror makes the same.
@@ -117,4 +117,4 @@ TEST(OverlapPoints, BothMaterialPointsAreWhereTheTrueSurfacesAreSeen) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::overlap_points_test

@@ -6,7 +6,7 @@
 
 #include "mechanics/contact/overlap_outline.hpp"
 
-namespace ashlar {
+namespace ashlar::pressure_end_test {
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
@@ -117,4 +117,4 @@ TEST(PressureEnd, ASliverIsNotCutOff) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::pressure_end_test

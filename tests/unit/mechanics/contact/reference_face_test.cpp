@@ -9,7 +9,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::reference_face_test {
 namespace {
 
 using test_support::block_of;
@@ -150,4 +150,4 @@ TEST(ContactMaster, OfEqualBlocksIsWhatIsSaid) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::reference_face_test

@@ -8,7 +8,7 @@
 #include "support/check_derivatives.hpp"
 #include "unit/mechanics/contact/sample_joint.hpp"
 
-namespace ashlar {
+namespace ashlar::softened_point_test {
 namespace {
 
 using test_support::left_out;
@@ -158,4 +158,4 @@ TEST(SoftenedPoint, MeanForcesAreThoseOfAnElasticBondBelowItsStrength) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::softened_point_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace ashlar {
+namespace ashlar::spring_energy_test {
 namespace {
 
 TEST(SpringEnergy, RestOfOneSpringIsWhereItHoldsAsMuch) {
@@ -99,4 +99,4 @@ TEST(SpringEnergy, RestsGoBelowWhatIsRememberedWhereThatHoldsTooMuch) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::spring_energy_test

@@ -5,7 +5,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "mechanics/block/block_model.hpp"
 
-namespace ashlar {
+namespace ashlar::initial_stress_test {
 namespace {
 
 BlockModel stressed_box(int order, StressField stress) {
@@ -70,4 +70,4 @@ TEST(InitialStress, NeedsLinearElasticity) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::initial_stress_test

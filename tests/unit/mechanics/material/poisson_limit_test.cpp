@@ -5,7 +5,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "mechanics/block/block_model.hpp"
 
-namespace ashlar {
+namespace ashlar::poisson_limit_test {
 namespace {
 
 // Largest component of the stress over E of a block that has only been moved and turned: all of it is false.
@@ -45,4 +45,4 @@ TEST(PoissonLimit, FallsWithTheOrder) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::poisson_limit_test

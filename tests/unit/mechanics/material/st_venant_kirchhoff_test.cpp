@@ -6,7 +6,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::st_venant_kirchhoff_test {
 namespace {
 
 const Material rubber{1000.0, 5e6, 0.3, Elasticity::st_venant_kirchhoff};
@@ -137,4 +137,4 @@ TEST(StVenantKirchhoff, HeldBarUnderTractionIsInEquilibrium) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::st_venant_kirchhoff_test

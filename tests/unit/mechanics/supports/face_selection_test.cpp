@@ -9,7 +9,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::face_selection_test {
 namespace {
 
 TEST(FaceSelection, FindsTheFacesInAPlaneFromBothSides) {
@@ -60,4 +60,4 @@ TEST(SurfaceRule, IntegratesOverTheChosenFace) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::face_selection_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::gravity_history_test {
 namespace {
 
 // A table that is tilted from 1 s to 3 s.
@@ -30,4 +30,4 @@ TEST(GravityHistory, LargestIsThatOfARow) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::gravity_history_test

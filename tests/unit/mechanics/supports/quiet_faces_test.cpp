@@ -8,7 +8,7 @@
 #include "mechanics/block/block_model.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::quiet_faces_test {
 namespace {
 
 /// lambda = mu = 8e7 Pa: rho c_s = sqrt(2000 * 8e7) = 4e5 Pa s/m, rho c_p = sqrt(3) times that.
@@ -134,4 +134,4 @@ TEST(QuietFaces, BlocksThatCannotHaveThemAreRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::quiet_faces_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::recorded_motion_test {
 namespace {
 
 SupportHistory history_of(MotionRecord record, const std::vector<double>& times,
@@ -132,4 +132,4 @@ TEST(RecordedMotion, RefusesWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::recorded_motion_test

@@ -4,7 +4,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::support_motion_test {
 namespace {
 
 const Polyhedron box(make_box({0, 0, 0}, {2, 1, 1}));
@@ -100,4 +100,4 @@ TEST(SupportMotion, RefusesAStartElsewhere) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::support_motion_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::water_level_test {
 namespace {
 
 /// Integral of the depth over parts, m^3: the mean of the corners of each triangle of a fan.
@@ -63,4 +63,4 @@ TEST(WaterLevel, AVerticalJointOnASideOfTwoTrianglesCountsOnce) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::water_level_test

@@ -8,7 +8,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::motion_accuracy_test {
 namespace {
 
 using test_support::block_of;
@@ -143,4 +143,4 @@ TEST(MotionAccuracy, ImpactsAreCounted) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::motion_accuracy_test

@@ -6,7 +6,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::static_accuracy_test {
 namespace {
 
 using test_support::block_of;
@@ -160,4 +160,4 @@ TEST(StaticAccuracy, ReachesWhatIsAskedOfAClampedPlate) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::static_accuracy_test

@@ -5,7 +5,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::bolts_in_a_run_test {
 namespace {
 
 using test_support::block_of;
@@ -224,4 +224,4 @@ TEST(BoltsInARun, AStageInstallsThemWithoutForceAndRemovesThem) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::bolts_in_a_run_test

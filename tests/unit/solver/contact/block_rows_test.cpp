@@ -6,7 +6,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::block_rows_test {
 namespace {
 
 Eigen::VectorXd force(const BlockRows& rows, const Eigen::Matrix3Xd& forces) {
@@ -134,4 +134,4 @@ TEST(BlockRows, OfAFixedBlockThereAreNone) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::block_rows_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::contact_accounts_test {
 namespace {
 
 using Accounts = std::map<PairKey, double>;
@@ -67,4 +67,4 @@ TEST(IslandFunds, WhatAMotionSetsFreeStaysWithTheIsland) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_accounts_test

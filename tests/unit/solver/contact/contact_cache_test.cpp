@@ -14,7 +14,7 @@
 #include "support/simulations.hpp"
 #include "unit/solver/contact/sample_pair.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_cache_test {
 namespace {
 
 using test_support::block_of;
@@ -241,4 +241,4 @@ TEST(ContactCache, ContactsOfOtherBlocksAreRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_cache_test

@@ -6,7 +6,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_finder_test {
 namespace {
 
 using test_support::block_of;
@@ -156,4 +156,4 @@ TEST(ContactFinder, BlocksThatWouldPassAreReportedEarliestFirst) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_finder_test

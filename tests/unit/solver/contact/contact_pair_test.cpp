@@ -10,7 +10,7 @@
 #include "support/simulations.hpp"
 #include "unit/solver/contact/sample_pair.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_pair_test {
 namespace {
 
 using test_support::block_of;
@@ -327,4 +327,4 @@ TEST(ContactPair, SlidingInACircleTakesFrictionTimesThePathOfTheSpringsFoot) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_pair_test

@@ -7,7 +7,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::depth_audit_test {
 namespace {
 
 using test_support::block_of;
@@ -141,4 +141,4 @@ TEST(DepthAudit, WhatHasHardlyMovedIsNotAskedAgain) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::depth_audit_test

@@ -5,7 +5,7 @@
 #include "support/simulations.hpp"
 #include "unit/solver/contact/sample_pair.hpp"
 
-namespace ashlar {
+namespace ashlar::energy_bounds_test {
 namespace {
 
 /// A spring of 2 N/m and some depth, which holds its square.
@@ -104,4 +104,4 @@ TEST(EnergyBounds, BondsNeitherGiveNorTake) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::energy_bounds_test

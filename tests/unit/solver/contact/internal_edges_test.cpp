@@ -10,7 +10,7 @@
 #include "support/placed_bodies.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::internal_edges_test {
 namespace {
 
 using test_support::block_of;
@@ -353,4 +353,4 @@ TEST(InternalEdges, OnlyWhatSinkingMakesIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::internal_edges_test

@@ -6,7 +6,7 @@
 #include "solver/contact/contact_pair.hpp"
 #include "unit/solver/contact/sample_pair.hpp"
 
-namespace ashlar {
+namespace ashlar::moved_pair_test {
 namespace {
 
 using test_support::pair_of;
@@ -136,4 +136,4 @@ TEST(ContactPair, TotalForcesHaveNoResultantAndNoTorque) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::moved_pair_test

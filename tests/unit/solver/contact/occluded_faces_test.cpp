@@ -4,7 +4,7 @@
 
 #include "support/placed_bodies.hpp"
 
-namespace ashlar {
+namespace ashlar::occluded_faces_test {
 namespace {
 
 using test_support::box;
@@ -52,4 +52,4 @@ TEST(OccludedFaces, SidesFartherApartThanTheReachAreOpen) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::occluded_faces_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::pair_history_test {
 namespace {
 
 /// Memory of one point, the step's deepest and the bulge as given, m.
@@ -78,4 +78,4 @@ TEST(PairHistory, ValuesThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::pair_history_test

@@ -6,7 +6,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::pair_rows_test {
 namespace {
 
 using test_support::block_of;
@@ -132,4 +132,4 @@ TEST(PairRows, WithoutSlidingThereAreNoCouplings) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::pair_rows_test

@@ -6,7 +6,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::reference_order_test {
 namespace {
 
 BlockModel cube_at(const Vector3& corner) {
@@ -55,4 +55,4 @@ TEST(ReferenceOrder, WhereNothingTellsOneOfTwoIs) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::reference_order_test

@@ -7,7 +7,7 @@
 
 #include "support/placed_bodies.hpp"
 
-namespace ashlar {
+namespace ashlar::surface_continuation_test {
 namespace {
 
 /// True if a second slab continues the surface, for a cube on both, behind the edge of the first one at x = 0.
@@ -56,4 +56,4 @@ TEST(SurfaceContinuation, RimsAreEndsWhereNothingIsBehindThem) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::surface_continuation_test

@@ -11,7 +11,7 @@
 
 #include "solver/linear/sparse_cholesky.hpp"
 
-namespace ashlar {
+namespace ashlar::blas_memory_test {
 namespace {
 
 /// n on the diagonal, one elsewhere: positive definite and full, so that its factor is one supernode.
@@ -73,4 +73,4 @@ TEST(BlasMemory, ThreadsThatComeAndGoNeedNoMoreThanThereAreAtATime) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::blas_memory_test

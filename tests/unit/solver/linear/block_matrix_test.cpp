@@ -4,7 +4,7 @@
 
 #include "solver/linear/conjugate_gradients.hpp"
 
-namespace ashlar {
+namespace ashlar::block_matrix_test {
 namespace {
 
 Eigen::MatrixXd dense(const SymmetricMatrix& matrix) {
@@ -131,4 +131,4 @@ TEST(ConjugateGradients, WhatDoesNotConvergeIsFactorised) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::block_matrix_test

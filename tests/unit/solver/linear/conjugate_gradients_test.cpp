@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ashlar {
+namespace ashlar::conjugate_gradients_test {
 namespace {
 
 /// A row of masses between springs of stiffness 1, both ends held: its condition grows with the square of their number.
@@ -51,4 +51,4 @@ TEST(ConjugateGradients, AFactorIsNotKeptForTheNextStep) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::conjugate_gradients_test

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-namespace ashlar {
+namespace ashlar::gmres_test {
 namespace {
 
 TEST(Gmres, SolvesAnUnsymmetricSystem) {
@@ -39,4 +39,4 @@ TEST(Gmres, TellsThatASingularSystemHasNoSolution) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::gmres_test

@@ -9,7 +9,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::checkpoint_test {
 namespace {
 
 /// A bending block on an elastic one that is clamped at an end; it slides, and both are dented.
@@ -283,4 +283,4 @@ TEST(Checkpoint, SnapshotOfOtherBlocksIsRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::checkpoint_test

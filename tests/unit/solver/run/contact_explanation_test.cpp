@@ -12,7 +12,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_explanation_test {
 namespace {
 
 using test_support::block_of;
@@ -182,4 +182,4 @@ TEST(ContactExplanation, ChangesNothingOfTheRun) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_explanation_test

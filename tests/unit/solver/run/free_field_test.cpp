@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ashlar {
+namespace ashlar::free_field_test {
 namespace {
 
 /// lambda = mu = 8e7 Pa, c_s = 200 m/s.
@@ -88,4 +88,4 @@ TEST(FreeField, AColumnNeedsALayer) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::free_field_test

@@ -7,7 +7,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::known_overlap_test {
 namespace {
 
 using test_support::block_of;
@@ -164,4 +164,4 @@ TEST(KnownOverlap, IsNotOfIncrementalBlocks) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::known_overlap_test

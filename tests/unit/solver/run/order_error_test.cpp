@@ -4,7 +4,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::order_error_test {
 namespace {
 
 using test_support::block_of;
@@ -97,4 +97,4 @@ TEST(OrderError, SeesTheNextOrderButOne) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::order_error_test

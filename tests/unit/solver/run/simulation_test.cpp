@@ -9,7 +9,7 @@
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::simulation_test {
 namespace {
 
 using test_support::block_of;
@@ -317,4 +317,4 @@ TEST(Simulation, ResultsDoNotDependOnThreads) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::simulation_test

@@ -14,8 +14,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/stored_numbers.hpp"
 
-namespace ashlar {
-namespace struct_members_test {
+namespace ashlar::struct_members_test {
 
 struct OfOneArray {
   std::array<int, 3> numbers;
@@ -33,8 +32,6 @@ struct OfAllKinds {
 };
 static_assert(count_members<OfOneArray>() == 1);
 static_assert(count_members<OfAllKinds>() == 9);
-
-}  // namespace struct_members_test
 
 namespace {
 
@@ -125,4 +122,4 @@ TEST(StructMembers, ResponsesOfContactPointsComeBackAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::struct_members_test

@@ -4,7 +4,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::block_system_test {
 namespace {
 
 using test_support::block_of;
@@ -87,4 +87,4 @@ TEST(BlockSystem, IncrementalBlocksAreNotTied) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::block_system_test

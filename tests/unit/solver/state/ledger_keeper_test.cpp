@@ -4,7 +4,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::ledger_keeper_test {
 namespace {
 
 /// A cube of 2 kg with its centroid 0.5 m up, under 10 m/s^2, and a base that is never measured.
@@ -94,4 +94,4 @@ TEST(LedgerKeeper, MeasuresTheElasticEnergyOfMovingBlocks) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::ledger_keeper_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace ashlar {
+namespace ashlar::step_clock_test {
 namespace {
 
 TEST(DecimalSum, IsTheDecimalNumberNextToNothing) {
@@ -64,4 +64,4 @@ TEST(StepClock, CountsWholeStepsAndStartsAnewWithEveryOtherLength) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::step_clock_test

@@ -10,7 +10,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::certain_motion_test {
 namespace {
 
 using test_support::block_of;
@@ -106,4 +106,4 @@ TEST(CertainMotion, ComplianceIsNoMotion) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::certain_motion_test

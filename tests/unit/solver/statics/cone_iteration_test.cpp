@@ -13,7 +13,7 @@
 
 #include "solver/statics/cone_program.hpp"
 
-namespace ashlar {
+namespace ashlar::cone_iteration_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -231,4 +231,4 @@ TEST(ConeIteration, AnswersDependOnTheQuestionOnly) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cone_iteration_test

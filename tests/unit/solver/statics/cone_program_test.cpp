@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace ashlar {
+namespace ashlar::cone_program_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -304,4 +304,4 @@ TEST(ConeProgram, LoadsOfAnySizeHaveTheSameAnswer) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cone_program_test

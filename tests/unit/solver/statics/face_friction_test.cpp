@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ashlar {
+namespace ashlar::face_friction_test {
 namespace {
 
 using Polygon = std::vector<Eigen::Vector2d>;
@@ -36,4 +36,4 @@ TEST(FaceFriction, MeanDistanceFromACorner) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::face_friction_test

@@ -15,7 +15,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::limit_analysis_test {
 namespace {
 
 using test_support::g;
@@ -287,4 +287,4 @@ TEST(LimitAnalysis, AWedgeSlidesAlongTwoPlanes) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::limit_analysis_test

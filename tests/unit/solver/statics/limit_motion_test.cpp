@@ -10,7 +10,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::limit_motion_test {
 namespace {
 
 using test_support::g;
@@ -56,4 +56,4 @@ TEST(LimitMotion, JointsOfAMotionAreNamed) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::limit_motion_test

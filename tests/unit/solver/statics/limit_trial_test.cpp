@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace ashlar {
+namespace ashlar::limit_trial_test {
 namespace {
 
 /// Trials of a limit, with an estimate of it that is off by a factor; 0: none.
@@ -102,4 +102,4 @@ TEST(LimitTrial, ASearchWithoutAnswersEnds) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::limit_trial_test

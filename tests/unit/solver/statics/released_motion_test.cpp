@@ -8,7 +8,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::released_motion_test {
 namespace {
 
 using test_support::g;
@@ -134,4 +134,4 @@ TEST(ReleasedMotion, MotionIsMeasuredByTheLoads) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::released_motion_test

@@ -13,7 +13,7 @@
 #include "sample_limits.hpp"
 #include "solver/statics/thrust.hpp"
 
-namespace ashlar {
+namespace ashlar::rigid_bolts_test {
 namespace {
 
 using test_support::g;
@@ -331,4 +331,4 @@ TEST(RigidBolts, OfAKeystoneLowerItsLeastThrust) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::rigid_bolts_test

@@ -5,7 +5,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::rigid_onset_test {
 namespace {
 
 using test_support::block_of;
@@ -137,4 +137,4 @@ TEST(RigidOnset, ABondThatBreaksHoldsNoMore) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::rigid_onset_test

@@ -9,7 +9,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::rigid_verdict_test {
 namespace {
 
 using test_support::fixed_block;
@@ -112,4 +112,4 @@ TEST(RigidVerdict, ATableTiltedToItsFrictionAngleHasAnAnswer) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::rigid_verdict_test

@@ -5,7 +5,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::single_bodies_test {
 namespace {
 
 using test_support::joint;
@@ -28,4 +28,4 @@ TEST(SingleBodies, BlocksOfATowerSlideOneAtATime) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::single_bodies_test

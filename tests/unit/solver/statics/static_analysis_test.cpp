@@ -10,7 +10,7 @@
 #include "support/simulations.hpp"
 #include "unit/solver/statics/sample_statics.hpp"
 
-namespace ashlar {
+namespace ashlar::static_analysis_test {
 namespace {
 
 using test_support::block_of;
@@ -285,4 +285,4 @@ TEST(StaticAnalysis, BlocksThatNothingHoldsAreNamed) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::static_analysis_test

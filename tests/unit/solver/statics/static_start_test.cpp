@@ -4,7 +4,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::static_start_test {
 namespace {
 
 using test_support::block_of;
@@ -122,4 +122,4 @@ TEST(StaticStart, WhatNothingHoldsStartsAsPlaced) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::static_start_test

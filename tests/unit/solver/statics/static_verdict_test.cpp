@@ -12,7 +12,7 @@
 #include "support/simulations.hpp"
 #include "unit/solver/statics/sample_statics.hpp"
 
-namespace ashlar {
+namespace ashlar::static_verdict_test {
 namespace {
 
 using test_support::block_of;
@@ -211,4 +211,4 @@ TEST(StaticAnalysis, WhatMovesLittleIsNamedToo) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::static_verdict_test

@@ -15,7 +15,7 @@
 #include "solver/statics/thrust.hpp"
 #include "solver/statics/yielding_support.hpp"
 
-namespace ashlar {
+namespace ashlar::support_movement_test {
 namespace {
 
 using test_support::g;
@@ -312,4 +312,4 @@ TEST(SupportMovement, IsTheSameTwice) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::support_movement_test

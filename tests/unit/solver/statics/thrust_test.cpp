@@ -10,7 +10,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::thrust_test {
 namespace {
 
 using test_support::g;
@@ -92,4 +92,4 @@ TEST(Thrust, ResultantsOfJointsBalanceTheWeight) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::thrust_test

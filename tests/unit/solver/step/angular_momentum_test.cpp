@@ -8,7 +8,7 @@
 #include "solver/state/free_bodies.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::angular_momentum_test {
 namespace {
 
 using test_support::block_of;
@@ -238,4 +238,4 @@ INSTANTIATE_TEST_SUITE_P(Every, FreeCollision,
                                                           std::array{2, 1})));
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::angular_momentum_test

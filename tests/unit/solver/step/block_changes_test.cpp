@@ -6,7 +6,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::block_changes_test {
 namespace {
 
 const Material soft{2000.0, 2e7, 0.25};
@@ -118,4 +118,4 @@ TEST(BlockChanges, OrdersThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::block_changes_test

@@ -6,7 +6,7 @@
 
 #include "unit/solver/step/sample_problem.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_line_test {
 namespace {
 
 using test_support::level_point;
@@ -53,4 +53,4 @@ TEST(ContactLine, WorkIsThatOfAllForcesAtEachShare) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_line_test

@@ -6,7 +6,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::end_state_test {
 namespace {
 
 using test_support::block_of;
@@ -144,4 +144,4 @@ TEST(EndState, ANeedleThatIsTooThinToSpinFalls) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::end_state_test

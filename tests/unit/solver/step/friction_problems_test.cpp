@@ -13,7 +13,7 @@
 
 #include "solver/step/impact.hpp"
 
-namespace ashlar {
+namespace ashlar::friction_problems_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(OfSiconos, FrictionProblems,
                                          Judge{"OneObject-i100000-499.hdf5.dat", 1e-8}));
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::friction_problems_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::impact_test {
 namespace {
 
 /// Bodies on a line, of one velocity each: point k lies between bodies k and k + 1, its normal towards the first.
@@ -119,4 +119,4 @@ TEST(Impact, AnEccentricImpactWithFrictionGainsNoEnergy) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::impact_test

@@ -4,7 +4,7 @@
 
 #include "unit/solver/step/sample_problem.hpp"
 
-namespace ashlar {
+namespace ashlar::island_equations_test {
 namespace {
 
 TEST(IslandProblem, ContactsAreFollowedOnceUntilBlocksMoveOn) {
@@ -31,4 +31,4 @@ TEST(IslandProblem, ContactsAreFollowedOnceUntilBlocksMoveOn) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::island_equations_test

@@ -5,7 +5,7 @@
 #include "support/simulations.hpp"
 #include "unit/solver/contact/sample_pair.hpp"
 
-namespace ashlar {
+namespace ashlar::island_test {
 namespace {
 
 const BlockModel& cube() {
@@ -122,4 +122,4 @@ TEST(IslandSolvers, ConjugateGradientsGiveWhatAFactorGives) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::island_test

@@ -4,7 +4,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::lone_body_test {
 namespace {
 
 const Material rock{2000.0, 1e7, 0.25};
@@ -74,4 +74,4 @@ TEST(LoneBody, KindsWithoutASharedFactorAreLeftToTheIsland) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::lone_body_test

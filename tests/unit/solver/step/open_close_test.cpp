@@ -10,7 +10,7 @@
 #include "geometry/cutting/cut_solid.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::open_close_test {
 namespace {
 
 using test_support::block_of;
@@ -259,4 +259,4 @@ TEST(OpenClose, WhatOneBrickLacksDoesNotMakeTheOthersFall) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::open_close_test

@@ -5,7 +5,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::position_projection_test {
 namespace {
 
 using test_support::block_of;
@@ -210,4 +210,4 @@ TEST(MovedApartFree, KeepsMomentumAndAngularMomentum) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::position_projection_test

@@ -4,7 +4,7 @@
 
 #include "unit/solver/step/sample_problem.hpp"
 
-namespace ashlar {
+namespace ashlar::proximal_guess_test {
 namespace {
 
 using test_support::level_point;
@@ -46,4 +46,4 @@ TEST(ProximalGuess, IsNotTakenInPlaceOfABetterOne) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::proximal_guess_test

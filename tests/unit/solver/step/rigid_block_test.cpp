@@ -9,7 +9,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::rigid_block_test {
 namespace {
 
 using test_support::block_of;
@@ -244,4 +244,4 @@ TEST(RigidBlocks, HaveNoSupportsNoOtherOrderAndNoGeneralizedAlpha) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::rigid_block_test

@@ -8,7 +8,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::sleeping_islands_test {
 namespace {
 
 using test_support::block_of;
@@ -211,4 +211,4 @@ TEST(SleepingIslands, ARunGoesOnFromSleepAsIfItHadNotStopped) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sleeping_islands_test

@@ -4,7 +4,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::step_problem_test {
 namespace {
 
 using test_support::block_of;
@@ -88,4 +88,4 @@ TEST(StepProblem, NoSupportMovesWhereNoneIsDriven) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::step_problem_test

@@ -8,7 +8,7 @@
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::stiffness_damping_test {
 namespace {
 
 constexpr double density = 2500.0;
@@ -106,4 +106,4 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(Integrator::average_acceleration, Integrator::generalized_alpha)));
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::stiffness_damping_test

@@ -9,7 +9,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::time_scheme_test {
 namespace {
 
 using test_support::block_of;
@@ -217,4 +217,4 @@ TEST(GeneralizedAlpha, CollisionKeepsMomentum) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::time_scheme_test

@@ -6,7 +6,7 @@
 
 #include "support/simulations.hpp"
 
-namespace ashlar {
+namespace ashlar::velocity_contact_test {
 namespace {
 
 using test_support::block_of;
@@ -275,4 +275,4 @@ TEST(VelocityContact, FrictionThatIsDueAndThatActedIsCounted) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::velocity_contact_test

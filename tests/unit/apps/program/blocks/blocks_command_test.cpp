@@ -10,7 +10,7 @@
 #include "geometry/mesh/mesh_repair.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::blocks_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -215,4 +215,4 @@ TEST(BlockHistogram, ClassesAreOneTwoFive) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::blocks_command_test

@@ -16,7 +16,7 @@
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::contacts_command_test {
 namespace {
 
 using nlohmann::json;
@@ -294,4 +294,4 @@ TEST_F(ContactsCommand, FileNamesThatAreNoTextStillGiveJson) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::contacts_command_test

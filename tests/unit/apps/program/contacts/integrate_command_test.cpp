@@ -9,7 +9,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::integrate_command_test {
 namespace {
 
 constexpr const char* tetrahedron =
@@ -70,4 +70,4 @@ TEST(IntegrateCommand, RefusesWhatIsNoSolidAndWhatIsTooLarge) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::integrate_command_test

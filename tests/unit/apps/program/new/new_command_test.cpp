@@ -12,7 +12,7 @@
 #include "apps/results/text/json_text.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::new_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -101,4 +101,4 @@ TEST_F(NewScene, TheTunnelHasBlocksThatFall) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::new_command_test

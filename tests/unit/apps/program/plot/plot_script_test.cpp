@@ -10,7 +10,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::plot_script_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST(PlotScript, APlotWithoutPointsIsStillAPicture) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::plot_script_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::plot_test {
 namespace {
 
 TEST(Plot, SlopeOfAPowerLawIsItsExponent) {
@@ -16,4 +16,4 @@ TEST(Plot, SlopeOfAPowerLawIsItsExponent) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::plot_test

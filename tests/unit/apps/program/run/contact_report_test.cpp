@@ -5,7 +5,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_report_test {
 namespace {
 
 class ContactReport : public RunCommand {
@@ -73,4 +73,4 @@ TEST_F(ContactReport, NamesOfNoBlocksAreBadInput) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_report_test

@@ -20,7 +20,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::run_command_test {
 namespace {
 
 using ::testing::AllOf;
@@ -388,4 +388,4 @@ TEST_F(RunCommand, OrderThatAShapeDoesNotBearIsRefusedWithTheHighestThatItDoes) 
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::run_command_test

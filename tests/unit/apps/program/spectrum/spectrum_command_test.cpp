@@ -7,7 +7,7 @@
 #include "apps/results/text/csv_text.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::spectrum_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -107,4 +107,4 @@ TEST_F(SpectrumCommand, FaultsOfInput) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::spectrum_command_test

@@ -7,7 +7,7 @@
 #include "apps/program/verify/hertz_sphere.hpp"
 #include "apps/program/verify/patch_test.hpp"
 
-namespace ashlar {
+namespace ashlar::contact_study_test {
 namespace {
 
 TEST(ContactStudy, AreaSpringsAreExactAndStepsConverge) {
@@ -74,4 +74,4 @@ TEST(HertzSphere, ThePlaneCarriesTheForce) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::contact_study_test

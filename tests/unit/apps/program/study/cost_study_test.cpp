@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-namespace ashlar {
+namespace ashlar::cost_study_test {
 namespace {
 
 TEST(CostStudy, ScenesHaveTheBlocksTheyAreNamedFor) {
@@ -35,4 +35,4 @@ TEST(CostStudy, ScenesHaveTheBlocksTheyAreNamedFor) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cost_study_test

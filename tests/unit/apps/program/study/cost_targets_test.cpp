@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::cost_targets_test {
 namespace {
 
 TEST(CostTargets, EveryFigureIsMeasured) {
@@ -32,4 +32,4 @@ TEST(CostTargets, TheMachineTakesSomeTime) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::cost_targets_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::error_time_study_test {
 namespace {
 
 TEST(ErrorTimeStudy, HalfTheStepIsAQuarterOfTheErrorOfWhatTumbles) {
@@ -44,4 +44,4 @@ TEST(ErrorTimeStudy, HalfTheStepIsAQuarterOfTheErrorOfWhatTumbles) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::error_time_study_test

@@ -12,7 +12,7 @@
 #include "apps/program/study/sub_face_study.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::study_command_test {
 namespace {
 
 TEST(StudyCommand, UnknownNamesAreRefused) {
@@ -100,4 +100,4 @@ TEST(Study, TablesAreAligned) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::study_command_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::random_value_test {
 namespace {
 
 Distribution distribution(const char* text) {
@@ -65,4 +65,4 @@ TEST(RandomValue, DrawsStayWithinBounds) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::random_value_test

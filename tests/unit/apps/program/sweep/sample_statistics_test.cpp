@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::sample_statistics_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -61,4 +61,4 @@ TEST(SampleStatistics, AHistogramCountsEachSampleOnce) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sample_statistics_test

@@ -12,7 +12,7 @@
 #include "apps/program/sweep/variants.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::sweep_command_test {
 namespace {
 
 using ::testing::AllOf;
@@ -284,4 +284,4 @@ TEST_F(Sweep, RefusesWhatItCannotRunOrWouldOverwrite) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sweep_command_test

@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::variants_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -84,4 +84,4 @@ TEST(Variants, WhatComesTwiceIsRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::variants_test

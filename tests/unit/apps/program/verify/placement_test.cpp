@@ -15,7 +15,7 @@
 #include "geometry/solid/hull_solid.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::placement_test {
 namespace {
 
 /// A quarter turn about z and (1, 2, 3): (x, y, z) -> (1 - y, 2 + x, 3 + z).
@@ -270,4 +270,4 @@ TEST(FallingBlock, TurnsWithItsScene) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::placement_test

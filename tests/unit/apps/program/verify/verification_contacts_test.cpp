@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::verification_contacts_test {
 namespace {
 
 BlockDefinition cube_at(double x) {
@@ -47,4 +47,4 @@ TEST(ContactScene, GravityTurnsWithTheScene) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::verification_contacts_test

@@ -10,7 +10,7 @@
 
 #include "apps/program/verify/verification.hpp"
 
-namespace ashlar {
+namespace ashlar::verify_command_test {
 namespace {
 
 struct Answer {
@@ -117,4 +117,4 @@ TEST(Verification, AnErrorThatIsNoNumberDoesNotPass) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::verify_command_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::block_union_test {
 namespace {
 
 /// A triangle for each block, at x = its number + the shift.
@@ -61,4 +61,4 @@ TEST(BlockUnion, FramesOfARunWithoutStagesStayAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::block_union_test

@@ -11,7 +11,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::child_program_test {
 namespace {
 
 /// True if a process is there and no zombie.
@@ -61,4 +61,4 @@ TEST(ChildProgram, LeavesHandlersAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::child_program_test

@@ -8,7 +8,7 @@
 
 #include "apps/results/frames/lagrange_triangle.hpp"
 
-namespace ashlar {
+namespace ashlar::curved_cells_test {
 namespace {
 
 /// Block 3: the triangle (0,0) (1,0) (0,1) of order 2, lifted to z = x^2 - x y, with a field 1 + y^2; block
@@ -88,4 +88,4 @@ TEST(CurvedCells, RefusesOtherCells) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::curved_cells_test

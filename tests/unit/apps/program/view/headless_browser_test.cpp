@@ -9,7 +9,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::headless_browser_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -76,4 +76,4 @@ TEST(HeadlessBrowserOfRoot, HasNoSandbox) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::headless_browser_test

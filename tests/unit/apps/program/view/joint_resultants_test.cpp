@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace ashlar {
+namespace ashlar::joint_resultants_test {
 namespace {
 
 /// Contact points with the normal z.
@@ -74,4 +74,4 @@ TEST(JointResultants, NoContactsNoJoints) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::joint_resultants_test

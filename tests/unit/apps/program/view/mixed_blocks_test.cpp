@@ -13,7 +13,7 @@
 #include "apps/results/frames/vtu_reader.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::mixed_blocks_test {
 namespace {
 
 using ::testing::Contains;
@@ -188,4 +188,4 @@ TEST_F(MixedBlocks, PiecesOfCutBlocksHaveTheirNamesAndMaterials) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::mixed_blocks_test

@@ -11,7 +11,7 @@
 
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::movie_command_test {
 namespace {
 
 using ::testing::AllOf;
@@ -87,4 +87,4 @@ TEST_F(MovieCommand, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::movie_command_test

@@ -8,7 +8,7 @@
 
 #include "unit/apps/program/view/packed_reader.hpp"
 
-namespace ashlar {
+namespace ashlar::packed_numbers_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -104,4 +104,4 @@ TEST(PackedNumbers, AnAbsentBlockHasNoPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::packed_numbers_test

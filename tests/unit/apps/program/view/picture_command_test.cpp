@@ -12,7 +12,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::picture_command_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -141,4 +141,4 @@ TEST_F(PictureCommand, ABrowserThatHangsIsEndedWithAllItStarted) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::picture_command_test

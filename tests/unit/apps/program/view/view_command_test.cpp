@@ -16,7 +16,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/program/view/packed_reader.hpp"
 
-namespace ashlar {
+namespace ashlar::view_command_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -297,4 +297,4 @@ TEST_F(ViewCommand, ASummaryThatIsNoneIsNamed) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::view_command_test

@@ -13,7 +13,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::folder_claim_test {
 namespace {
 
 using testing::AllOf;
@@ -153,4 +153,4 @@ TEST(FolderClaim, MissesItsFolder) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::folder_claim_test

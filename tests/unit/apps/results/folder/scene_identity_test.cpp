@@ -9,7 +9,7 @@
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::scene_identity_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -111,4 +111,4 @@ TEST_F(Identity, AnotherProgramIsAnotherIdentity) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::scene_identity_test

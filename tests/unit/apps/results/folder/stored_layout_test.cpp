@@ -4,8 +4,7 @@
 
 #include <set>
 
-namespace ashlar {
-namespace stored_layout_test {
+namespace ashlar::stored_layout_test {
 
 struct One {
   int number = 0;
@@ -39,11 +38,7 @@ struct OtherNames {
   int size = 0;
 };
 
-}  // namespace stored_layout_test
-
 namespace {
-
-using namespace stored_layout_test;
 
 TEST(StoredLayout, IsAnotherOneForEachListOfMembers) {
   const std::vector<std::uint64_t> layouts = {stored_layout<One>(),
@@ -74,4 +69,4 @@ TEST(StoredLayout, DoesNotDependOnValues) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::stored_layout_test

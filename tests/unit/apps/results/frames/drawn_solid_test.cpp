@@ -8,7 +8,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
-namespace ashlar {
+namespace ashlar::drawn_solid_test {
 namespace {
 
 BlockModel block(const TriangleMesh& mesh, int order, bool fixed = false) {
@@ -80,4 +80,4 @@ TEST(DrawnSolids, TranslatedBlocksAreTheSameElsewhere) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::drawn_solid_test

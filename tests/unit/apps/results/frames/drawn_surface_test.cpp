@@ -8,7 +8,7 @@
 
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::drawn_surface_test {
 namespace {
 
 using ::testing::Each;
@@ -102,4 +102,4 @@ TEST(DrawnSurfaces, IncrementalBlocksKeepTheirSubFaces) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::drawn_surface_test

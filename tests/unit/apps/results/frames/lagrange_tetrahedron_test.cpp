@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::lagrange_tetrahedron_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -73,4 +73,4 @@ TEST(SimplexLattice, NeighboursShareTheirFace) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::lagrange_tetrahedron_test

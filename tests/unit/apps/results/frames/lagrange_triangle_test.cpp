@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::lagrange_triangle_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -101,4 +101,4 @@ TEST(SharedLattice, NeighboursShareTheirSide) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::lagrange_triangle_test

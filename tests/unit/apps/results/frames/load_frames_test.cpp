@@ -7,7 +7,7 @@
 #include "apps/results/frames/grid_arrays.hpp"
 #include "unit/apps/results/ended_run.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::load_frames_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -68,4 +68,4 @@ fix = [{ plane = { point = [0, 0, 0], normal = [0, 0, 1] } }]
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::load_frames_test

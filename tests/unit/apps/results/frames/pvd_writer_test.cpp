@@ -7,7 +7,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::pvd_writer_test {
 namespace {
 
 using testing::AllOf;
@@ -55,4 +55,4 @@ TEST(PvdWriter, ReportsAFolderThatIsGone) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::pvd_writer_test

@@ -11,7 +11,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::vtu_reader_test {
 namespace {
 
 using ::testing::AllOf;
@@ -250,4 +250,4 @@ TEST(VtuReader, ASeriesThatIsCutOrHasNoTimesIsRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::vtu_reader_test

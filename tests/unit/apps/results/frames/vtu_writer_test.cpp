@@ -11,7 +11,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::vtu_writer_test {
 namespace {
 
 using testing::HasSubstr;
@@ -91,4 +91,4 @@ TEST(WriteVtu, Compresses) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::vtu_writer_test

@@ -4,7 +4,7 @@
 
 #include "unit/apps/results/ended_run.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::contact_state_test {
 namespace {
 
 /// A plate on a slope whose tangent is 0.5 (26.6 degrees), with a friction angle.
@@ -80,4 +80,4 @@ TEST(ContactState, AJointAtItsLimitSlides) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::contact_state_test

@@ -6,7 +6,7 @@
 
 #include "unit/apps/results/ended_run.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::group_measure_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -152,4 +152,4 @@ drift = )";
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::group_measure_test

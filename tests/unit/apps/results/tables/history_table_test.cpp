@@ -9,7 +9,7 @@
 #include "apps/results/tables/history_writer.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::history_table_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -67,4 +67,4 @@ TEST(HistoryTable, FaultsNameTheLine) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::history_table_test

@@ -10,7 +10,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::history_writer_test {
 namespace {
 
 using testing::HasSubstr;
@@ -113,4 +113,4 @@ TEST(HistoryWriterResume, RefusesAnotherTable) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::history_writer_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ashlar {
+namespace ashlar::response_spectrum_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -68,4 +68,4 @@ TEST(ResponseSpectrum, PeriodsHaveEqualRatios) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::response_spectrum_test

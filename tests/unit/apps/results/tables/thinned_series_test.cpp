@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::thinned_series_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -41,4 +41,4 @@ TEST(ThinnedSeries, SaysWhatItWants) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::thinned_series_test

@@ -8,7 +8,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::atomic_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -113,4 +113,4 @@ TEST(AtomicFile, OnlyFilesOfItsKindMayBeReplaced) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::atomic_file_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace ashlar {
+namespace ashlar::csv_text_test {
 namespace {
 
 std::string text_of(double value) {
@@ -85,4 +85,4 @@ TEST(CsvLine, IsSplitAtCommasOutsideQuotes) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::csv_text_test

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace ashlar {
+namespace ashlar::json_text_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -77,4 +77,4 @@ TEST(JsonText, WhatIsNoJsonIsRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::json_text_test

@@ -13,7 +13,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::output_file_test {
 namespace {
 
 using Start = OutputFile::Start;
@@ -148,4 +148,4 @@ TEST(OutputFile, TakesBackAWriteThatWasCutShort) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::output_file_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::xml_text_test {
 namespace {
 
 TEST(EscapeXml, ReplacesWhatXmlReserves) {
@@ -29,4 +29,4 @@ TEST(XmlAttribute, IsNotLookedForInValues) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::xml_text_test

@@ -6,7 +6,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::initial_state_test {
 namespace {
 
 using ::testing::AllOf;
@@ -87,4 +87,4 @@ TEST(FirstNames, NamesBeyondTheFifthAreCounted) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::initial_state_test

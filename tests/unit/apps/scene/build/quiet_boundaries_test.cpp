@@ -9,7 +9,7 @@
 #include "apps/scene/build/build_simulation.hpp"
 #include "apps/scene/expand/ground_layers.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::quiet_boundaries_test {
 namespace {
 
 /// Rock of c_s = 200 m/s below soil of 100 m/s, 4 m each, between free-field sides.
@@ -134,4 +134,4 @@ TEST(QuietBoundaries, AStageEndsTheWave) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::quiet_boundaries_test

@@ -6,7 +6,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_reader_test {
 namespace {
 
 using ::testing::AllOf;
@@ -358,4 +358,4 @@ TEST(SceneReader, MissingFilesFoldersAndDevicesAreReported) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_reader_test

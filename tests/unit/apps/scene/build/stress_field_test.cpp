@@ -7,7 +7,7 @@
 #include "apps/scene/build/build_simulation.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::stress_field_test {
 namespace {
 
 /// A cube of 2 m on a floor. @param more lines after its block
@@ -116,4 +116,4 @@ TEST(StressField, AFormulaWithoutAValueOnAJointIsAFault) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::stress_field_test

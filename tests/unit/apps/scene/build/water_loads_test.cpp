@@ -8,7 +8,7 @@
 #include "apps/scene/build/build_simulation.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::water_loads_test {
 namespace {
 
 /// Two boxes of 2 x 1 x 3 m side by side, divided at x = 2, on a fixed floor.
@@ -131,4 +131,4 @@ TEST(WaterLoads, FaultsNameTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::water_loads_test

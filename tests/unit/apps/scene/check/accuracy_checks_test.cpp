@@ -7,7 +7,7 @@
 #include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::accuracy_checks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -114,4 +114,4 @@ TEST(AccuracyChecks, JsonIsReadAgain) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::accuracy_checks_test

@@ -9,7 +9,7 @@
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::base_motion_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -245,4 +245,4 @@ TEST_F(RunCommand, FaultsOfRecordsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::base_motion_test

@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::boundary_checks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -135,4 +135,4 @@ TEST(BoundaryChecks, AWaveOfOneColumnHasADirection) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::boundary_checks_test

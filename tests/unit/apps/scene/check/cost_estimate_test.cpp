@@ -9,7 +9,7 @@
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::cost_estimate_test {
 namespace {
 
 using ::testing::AllOf;
@@ -127,4 +127,4 @@ TEST_F(RunCommand, AHundredThousandUnknownKeysAreCounted) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::cost_estimate_test

@@ -7,7 +7,7 @@
 #include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::fracture_checks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -99,4 +99,4 @@ TEST(FractureChecks, KeysAreWrittenAsTheyWereRead) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::fracture_checks_test

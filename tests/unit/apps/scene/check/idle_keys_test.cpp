@@ -4,7 +4,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::idle_keys_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -118,4 +118,4 @@ TEST(IdleKeys, TiedBlocksDoNotSlide) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::idle_keys_test

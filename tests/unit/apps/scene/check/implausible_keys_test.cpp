@@ -6,7 +6,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::implausible_keys_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -82,4 +82,4 @@ TEST(ImplausibleKeys, TiesUnderStressOfTheGround) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::implausible_keys_test

@@ -11,7 +11,7 @@
 #include "support/sample_solids.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::initial_overlap_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -183,4 +183,4 @@ TEST(InitialOverlap, TwoFixedBlocksMayOverlap) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::initial_overlap_test

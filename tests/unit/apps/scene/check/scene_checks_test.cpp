@@ -5,7 +5,7 @@
 #include "apps/scene/expand/scene_solids.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_checks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -166,4 +166,4 @@ TEST(SceneChecks, WhatHasNoIncrementalFormIsRefused) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_checks_test

@@ -5,7 +5,7 @@
 #include "apps/scene/expand/scene_solids.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_limits_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -67,4 +67,4 @@ TEST(SceneLimits, WhatDoublesCanFollowIsGood) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_limits_test

@@ -5,7 +5,7 @@
 #include "apps/scene/expand/scene_solids.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::soft_blocks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -91,4 +91,4 @@ TEST(SoftBlocks, StiffnessesThatAreGivenCount) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::soft_blocks_test

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::turned_supports_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -84,4 +84,4 @@ TEST(TurnedSupports, PointsOfOneFaceThatTurnItAre) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::turned_supports_test

@@ -6,7 +6,7 @@
 
 #include "geometry/cutting/cut_error.hpp"
 
-namespace ashlar {
+namespace ashlar::joint_planes_test {
 namespace {
 
 SceneCut bedding() {
@@ -133,4 +133,4 @@ TEST(JointPlanes, ScatterIsFishers) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::joint_planes_test

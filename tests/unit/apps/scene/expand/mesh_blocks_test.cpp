@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::mesh_blocks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -117,4 +117,4 @@ TEST_F(MeshStones, FaultsAreAtTheFile) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::mesh_blocks_test

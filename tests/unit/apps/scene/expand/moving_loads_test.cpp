@@ -8,7 +8,7 @@
 #include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::moving_loads_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -119,4 +119,4 @@ TEST(MovingLoads, FaultsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::moving_loads_test

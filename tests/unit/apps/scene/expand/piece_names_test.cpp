@@ -13,7 +13,7 @@
 #include "unit/apps/sample_scene.hpp"
 #include "unit/apps/scene/expand/sample_rock.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::piece_names_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -130,4 +130,4 @@ TEST(MeasuredJoints, ATableOfMeasuredJoints) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::piece_names_test

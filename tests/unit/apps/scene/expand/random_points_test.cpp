@@ -9,7 +9,7 @@
 #include "apps/scene/expand/joint_planes.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar {
+namespace ashlar::random_points_test {
 namespace {
 
 /// A box with a corner at the origin, turned about it.
@@ -66,4 +66,4 @@ TEST(RandomPoints, SizesNearTheLimitsOfDoublesDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::random_points_test

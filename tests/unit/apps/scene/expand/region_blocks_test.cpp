@@ -8,7 +8,7 @@
 #include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::region_blocks_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -163,4 +163,4 @@ TEST(RegionBlocks, FaultsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::region_blocks_test

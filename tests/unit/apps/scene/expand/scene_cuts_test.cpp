@@ -12,7 +12,7 @@
 #include "unit/apps/sample_scene.hpp"
 #include "unit/apps/scene/expand/sample_rock.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_cuts_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -301,4 +301,4 @@ TEST(SceneCuts, FaultsHaveTheirPlaces) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_cuts_test

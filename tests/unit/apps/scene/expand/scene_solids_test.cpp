@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_solids_test {
 namespace {
 
 using ::testing::AllOf;
@@ -245,4 +245,4 @@ TEST(SceneSolids, FlatHullIsReportedAtItsKey) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_solids_test

@@ -8,7 +8,7 @@
 #include "apps/scene/build/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_stages_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -118,4 +118,4 @@ TEST(SceneStages, AreCheckedInATimeThatGoesWithTheirNumber) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_stages_test

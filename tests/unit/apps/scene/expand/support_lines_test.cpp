@@ -8,7 +8,7 @@
 #include "apps/scene/expand/scene_stages.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::support_lines_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -157,4 +157,4 @@ TEST(SupportLines, FaultsNameTheEndAndThePlace) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::support_lines_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::base64_test {
 namespace {
 
 // The examples of RFC 4648, section 10.
@@ -32,4 +32,4 @@ TEST(Base64, RefusesOtherText) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::base64_test

@@ -7,7 +7,7 @@
 
 #include "geometry/solid/polyhedron.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::dxf_reader_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -247,4 +247,4 @@ TEST(DxfReader, FaultsAreNamedWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::dxf_reader_test

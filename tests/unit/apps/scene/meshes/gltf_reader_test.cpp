@@ -13,7 +13,7 @@
 #include "geometry/solid/shapes.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::gltf_reader_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -320,4 +320,4 @@ TEST_F(GltfFiles, OneFileUnderManyNamesIsReadOnce) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::gltf_reader_test

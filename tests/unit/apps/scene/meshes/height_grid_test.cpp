@@ -8,7 +8,7 @@
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
-namespace ashlar {
+namespace ashlar::height_grid_test {
 namespace {
 
 TriangleMesh esri(const std::string& text) {
@@ -129,4 +129,4 @@ TEST(OpenTerrain, RefusesWhatHasNoBodyBelow) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::height_grid_test

@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::mesh_import_test {
 namespace {
 
 using ::testing::Contains;
@@ -192,4 +192,4 @@ TEST_F(MeshImport, ScenesAreToldOfUnits) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::mesh_import_test

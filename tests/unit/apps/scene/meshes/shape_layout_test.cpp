@@ -5,7 +5,7 @@
 #include "geometry/solid/polyhedron.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::shape_layout_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -136,4 +136,4 @@ TEST(ShapeLayout, NamesAndTransformationsAreChecked) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::shape_layout_test

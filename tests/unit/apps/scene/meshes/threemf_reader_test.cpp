@@ -7,7 +7,7 @@
 #include "geometry/solid/polyhedron.hpp"
 #include "geometry/solid/shapes.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::threemf_reader_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -279,4 +279,4 @@ TEST(ThreemfReader, InflatingIsBounded) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::threemf_reader_test

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace ashlar::test {
+namespace ashlar::test::diagnostics_test {
 namespace {
 
 TEST(Diagnostics, PrintsInFileOrderWithArgumentsLast) {
@@ -83,4 +83,4 @@ TEST(Diagnostics, ManyOfAKindAreCounted) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::diagnostics_test

@@ -6,7 +6,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::joint_table_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -60,4 +60,4 @@ TEST(JointTable, AgreesWithAskingEveryJoint) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::joint_table_test

@@ -5,7 +5,7 @@
 #include <clocale>
 #include <string>
 
-namespace ashlar::test {
+namespace ashlar::test::name_pattern_test {
 namespace {
 
 TEST(NamePattern, KnowsTheGlobsOfTheShell) {
@@ -92,4 +92,4 @@ TEST(NamePattern, MatchesPairsInEitherOrder) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::name_pattern_test

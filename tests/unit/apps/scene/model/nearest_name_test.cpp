@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace ashlar::test {
+namespace ashlar::test::nearest_name_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -72,4 +72,4 @@ TEST(NearestName, BlocksThatBeginAlikeAreListedBySeries) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::nearest_name_test

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace ashlar {
+namespace ashlar::preparation_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -31,4 +31,4 @@ TEST(Preparation, SaysNothingOfWhatIsDoneAtOnceOrQuiet) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::preparation_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar::test {
+namespace ashlar::test::scene_places_test {
 namespace {
 
 TEST(ScenePlaces, FallsBackToTheInnermostTableGiven) {
@@ -21,4 +21,4 @@ TEST(ScenePlaces, FallsBackToTheInnermostTableGiven) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_places_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar::test {
+namespace ashlar::test::scene_test {
 namespace {
 
 Scene scene_with_joints() {
@@ -46,4 +46,4 @@ TEST(Scene, FindsMaterialsByName) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_test

@@ -6,7 +6,7 @@
 #include "apps/scene/check/scene_checks.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::assignments_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -91,4 +91,4 @@ TEST(Assignments, RefuseMotionOfFixedBlocks) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::assignments_test

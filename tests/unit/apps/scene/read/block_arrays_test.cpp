@@ -4,7 +4,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::block_arrays_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -66,4 +66,4 @@ INSTANTIATE_TEST_SUITE_P(
         FaultCase{20, "array = { step = [[1, 0, 0]] }", "s.toml:21:1: error: missing key (count)"}));
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::block_arrays_test

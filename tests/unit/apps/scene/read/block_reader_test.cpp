@@ -4,7 +4,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::block_reader_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -143,4 +143,4 @@ TEST(BlockReader, FixedBlockTakesNoSupportAndNoLoad) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::block_reader_test

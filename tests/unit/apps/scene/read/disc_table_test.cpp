@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace ashlar {
+namespace ashlar::disc_table_test {
 namespace {
 
 struct Read {
@@ -62,4 +62,4 @@ TEST(DiscTable, FaultsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::disc_table_test

@@ -4,7 +4,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace ashlar {
+namespace ashlar::file_hash_test {
 namespace {
 
 // Values of FIPS 180-4's examples.
@@ -21,4 +21,4 @@ TEST(FileHash, IsTheStandardsSha256) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::file_hash_test

@@ -6,7 +6,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::history_reader_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -80,4 +80,4 @@ TEST_F(HistoryOfAFile, FaultsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::history_reader_test

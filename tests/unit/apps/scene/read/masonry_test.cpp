@@ -13,7 +13,7 @@
 #include "apps/scene/expand/scene_solids.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::masonry_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -348,4 +348,4 @@ TEST(MasonryDome, ClosesWithAKeystone) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::masonry_test

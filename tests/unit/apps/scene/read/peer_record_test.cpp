@@ -6,7 +6,7 @@
 
 #include "apps/scene/read/record_file.hpp"
 
-namespace ashlar {
+namespace ashlar::peer_record_test {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -64,4 +64,4 @@ TEST(PeerRecord, FaultsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::peer_record_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ashlar {
+namespace ashlar::record_processing_test {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -49,4 +49,4 @@ TEST(RecordProcessing, ResamplingIsLinearAndKeepsTheEnd) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::record_processing_test

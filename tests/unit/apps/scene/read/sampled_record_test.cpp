@@ -7,7 +7,7 @@
 
 #include "apps/scene/read/record_file.hpp"
 
-namespace ashlar {
+namespace ashlar::sampled_record_test {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -161,4 +161,4 @@ TEST(RecordFile, ColumnsWithoutNamesAreNamedByTheirNumbers) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::sampled_record_test

@@ -4,7 +4,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_json_test {
 namespace {
 
 nlohmann::json json_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -72,4 +72,4 @@ TEST(SceneJson, HoldsWhatIsNotDefault) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_json_test

@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace ashlar {
+namespace ashlar::fault_text_test {
 namespace {
 
 /// The words for what `action` throws.
@@ -49,4 +49,4 @@ TEST(FaultText, MissingMemoryIsOneWording) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::fault_text_test

@@ -5,7 +5,7 @@
 #include <clocale>
 #include <cmath>
 
-namespace ashlar {
+namespace ashlar::formulas_test {
 namespace {
 
 double value_of(const std::string& text) {
@@ -104,4 +104,4 @@ TEST(Formulas, NamesAreTakenApartFromNumbers) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::formulas_test

@@ -6,7 +6,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::include_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -135,4 +135,4 @@ TEST_F(Include, CannotBeSet) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::include_test

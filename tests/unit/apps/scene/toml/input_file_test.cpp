@@ -8,7 +8,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::input_file_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -69,4 +69,4 @@ TEST(InputFile, AllFilesOfASceneTogetherHaveTheLimit) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::input_file_test

@@ -4,7 +4,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::parameters_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -88,4 +88,4 @@ TEST(Parameters, FaultsOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::parameters_test

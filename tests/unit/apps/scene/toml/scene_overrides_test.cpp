@@ -4,7 +4,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::scene_overrides_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -101,4 +101,4 @@ TEST(SceneOverrides, OneArgumentSetsOneKey) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::scene_overrides_test

@@ -5,7 +5,7 @@
 
 #include "unit/apps/sample_scene.hpp"
 
-namespace ashlar::test {
+namespace ashlar::test::toml_faults_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -46,4 +46,4 @@ TEST(TomlFaults, OthersAreInTheParsersWords) {
 }
 
 }  // namespace
-}  // namespace ashlar::test
+}  // namespace ashlar::test::toml_faults_test
