@@ -95,6 +95,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> bolt_cases();
 /// Rock cut by joints.
 [[nodiscard]] std::span<const VerificationCase> cutting_cases();
+/// Cases that other programs have published.
+[[nodiscard]] std::span<const VerificationCase> peer_cases();
 /// The paper's example.
 [[nodiscard]] std::span<const VerificationCase> falling_block_cases();
 
