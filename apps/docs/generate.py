@@ -1,13 +1,16 @@
 """Writes the generated parts of the book from the program, and checks that they are up to date.
 
     generate.py PROGRAM                    rewrites the pages
+    generate.py PROGRAM --peers FOLDER     too the numbers of tests/peers: FOLDER has what their first lines say; they need the
+                                           Python module
     generate.py PROGRAM --check            writes nothing; exit status 1 if a page differs from the program
 
     reference/commands.md   the help of each command, in the block after `<!-- ashlar NAME --help -->`
     reference/scene.md      the column `value`: what the reader accepts, in its own words. Keys that the page does not have
                             are appended to their table, to be described by hand; a unit test holds the column `default`
     validation.md           the table of `ashlar verify`, with references and sources from verify_sources.toml. --check runs
-                            the cases that take less than a second or two
+                            the cases that take less than a second or two. Below it our numbers beside those of others
+                            (peer_results.toml)
 """
 import argparse
 import concurrent.futures
@@ -185,25 +188,94 @@ def changed_tolerances(program, text):
             yield f"{case['name']}: tolerance {tolerances(case)}, the page has {page.get(case['name'])}"
 
 
+# Our numbers beside those of others.
+
+PEERS = re.compile(r"(<!-- peer_results.toml -->\n)(.*?)(<!-- end of peers -->)", re.DOTALL)
+PEER_ROW = re.compile(r"^\| (.*?) \| .*? \| ([^|]*) \| ([^|]*) \| [^|]* \|$", re.MULTILINE)
+PEER_HEAD = "| what | by | their number | ours | difference | command |\n|---|---|---|---|---|---|\n"
+
+
+def shown(value):
+    """Six digits; nothing below a millionth is more than rounding here."""
+    return "0" if abs(value) < 1e-6 else f"{value:.6g}"
+
+
+def ours_of(result, case):
+    """Our numbers, and their largest difference from those of others, as the table shows them."""
+    by_name = {check["what"]: check for check in case["checks"]}
+    checks = [by_name[name] for name in result["checks"]]
+    if "verdict" in result:
+        same = result["verdict"] == result["told"]
+        return (result["verdict"] if checks[0]["passed"] else "FAILS"), "none" if same else "theirs is wrong"
+    values = [check["measured"] * result.get("scale", 1) for check in checks]
+    theirs = result["numbers"]
+    if result.get("apart"):
+        difference = "theirs is wrong"
+    else:
+        difference = f"{max(abs(our / their - 1) for our, their in zip(values, theirs, strict=True)):.0e}"
+    return with_unit(values, result), difference
+
+
+def with_unit(values, result):
+    """The first and the last of some numbers."""
+    ends = [shown(value) for value in (values[0], values[-1])]
+    return " to ".join(dict.fromkeys(ends)) + (f" {result['unit']}" if "unit" in result else "")
+
+
+def command_of(result):
+    return f"python3 {result['script']} FOLDER" if "script" in result else f"ashlar verify {result['case']}"
+
+
+def script_cases(folder):
+    """What the scripts of tests/peers find with the files of others, as cases by the names of the scripts."""
+    names = {result["script"] for result in read_peers() if "script" in result}
+    return [{**json.loads(output_of(sys.executable, PROJECT / name, folder, "--json")), "name": name} for name in sorted(names)]
+
+
+def read_peers():
+    return tomllib.loads((DOCS / "peer_results.toml").read_text(encoding="utf-8"))["result"]
+
+
+def with_peers(_, text, cases=None):
+    """With our numbers of these cases; those of the page where a case has not been run."""
+    by_name = {case["name"]: case for case in cases or []}
+    page = {what: (ours, difference) for what, ours, difference in PEER_ROW.findall(PEERS.search(text)[2])}
+    rows = ""
+    for result in read_peers():
+        case = by_name.get(result.get("case", result.get("script")))
+        ours, difference = ours_of(result, case) if case else page.get(result["what"], ("?", "?"))
+        theirs = result.get("told") or with_unit(result["numbers"], result)
+        rows += (f"| {result['what']} | {result['by']} ({result['source']}) | {theirs} | {ours} | {difference} "
+                 f"| `{command_of(result)}` |\n")
+    return PEERS.sub(lambda match: f"{match[1]}\n{PEER_HEAD}{rows}\n{match[3]}", text)
+
+
+def with_validation(program, text, cases=None):
+    return with_peers(program, with_verification(program, text, cases), cases)
+
+
 def main(arguments):
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--peers", type=pathlib.Path)
     options = parser.parse_args(arguments)
     program = str(pathlib.Path(options.program).resolve())
     faults = []
     for name, write in (("reference/commands.md", with_help), ("reference/scene.md", with_values),
-                        ("validation.md", with_verification)):
+                        ("validation.md", with_validation)):
         page = DOCS / name
         old = page.read_text(encoding="utf-8")
         if options.check:
             new = write(program, old)
             faults += [f"{name} differs from the program: generate.py rewrites it"] if new != old else []
             faults += [f"{name} has keys without a default and a meaning ({UNSAID})"] if UNSAID in old else []
-            if write is with_verification:
+            if write is with_validation:
                 faults += changed_tolerances(program, old)
             continue
-        more = [json.loads(output_of(program, "verify", "--json"))["cases"]] if write is with_verification else []
+        more = [json.loads(output_of(program, "verify", "--json"))["cases"]] if write is with_validation else []
+        if more and options.peers:
+            more[0] += script_cases(options.peers)
         page.write_text(write(program, old, *more), encoding="utf-8")
     print("\n".join(faults), end="\n" if faults else "")
     return 1 if faults else 0

@@ -6,15 +6,12 @@
 #include <map>
 
 #include "geometry/index.hpp"
+#include "mechanics/basis/plane_cross.hpp"
 
 namespace ashlar {
 namespace {
 
 using Polygon = std::vector<Eigen::Vector2d>;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Area and its first moment.
 struct AreaMoment {

@@ -3,8 +3,8 @@
     distinct_names.py PROJECT      exit status 1, with a line for each clash
     distinct_names.py --self-test  each kind of clash is found
 
-In the sources of a library a name in an unnamed namespace is one thing. Functions of the same name differ in the types
-of their parameters; types and aliases of the same name are the same alias. A test has a namespace of its own, which ends
+In the sources of a library a name in an unnamed namespace is one thing. Functions of the same name, those of headers and static ones too, differ in the
+types of their parameters; types and aliases of the same name are the same alias. A test has a namespace of its own, which ends
 with the name of its file: helpers of tests are called cube and rock in many files.
 """
 import collections
@@ -16,15 +16,16 @@ import tempfile
 # Folders whose sources are one library, the deepest first.
 LIBRARIES = ["geometry", "mechanics", "solver", "apps/scene", "apps/results", "apps/run", "apps/python", "apps"]
 TESTS = ["tests/unit", "tests/oracle"]
+NAMED = r"^namespace ashlar \{"
 NOT_CODE = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|//[^\n]*|/\*.*?\*/|^#[^\n]*',
                       re.S | re.M)
 BODY_FOLLOWS = re.compile(r"^(?!.*= *\[).*\)\s*(const|noexcept)?\s*(->[^=]*)?$", re.S)
 
 
-def statements(text):
-    """Declarations directly in unnamed namespaces, without bodies."""
+def statements(text, opening=r"^namespace \{"):
+    """Declarations directly in unnamed namespaces, without bodies; `opening` of other namespaces."""
     code = NOT_CODE.sub(lambda found: '""' if found[0][0] in "\"R" else "", text)
-    for namespace in re.finditer(r"^namespace \{", code, re.M):
+    for namespace in re.finditer(opening, code, re.M):
         depth, words = 1, []
         for letter in code[namespace.end():]:
             if letter == "{":
@@ -85,6 +86,34 @@ def names(statement):
                 yield name[1], "a variable"
 
 
+def functions_of(text, opening, starts=""):
+    """(name, types of parameters by value) of each function that is declared directly in a namespace."""
+    for statement in statements(text, opening):
+        if not statement.startswith(starts):
+            continue
+        for name, rest in names(statement.removeprefix("static ")):
+            if rest.startswith("("):
+                yield name, re.sub(r"\bconst |&", "", rest)
+
+
+def clashes_with_headers(sources, headers):
+    """Lines for users: a function of a source that a header, or a static one of another source, has too. Calls would be
+    ambiguous where both are in view.
+    @param sources, headers {path: text}"""
+    declared = {}
+    for path, text in headers.items():
+        for function in functions_of(text, NAMED):
+            declared.setdefault(function, path)
+    own = collections.defaultdict(set)
+    for path, text in sources.items():
+        for function in (*functions_of(text, r"^namespace \{"), *functions_of(text, NAMED, "static ")):
+            own[function].add(path)
+    for (name, types), paths in own.items():
+        others = ([declared[name, types]] if (name, types) in declared else []) + sorted(paths)
+        if len(others) > 1:
+            yield f"{others[1]}: {name}{types} is also in {others[0]}"
+
+
 def clashes_of_library(sources):
     """Lines for users. @param sources {path: text}"""
     known = collections.defaultdict(lambda: collections.defaultdict(list))
@@ -114,8 +143,11 @@ def faults_of(project):
         elif any(place.startswith(name + "/") for name in TESTS) and path.stem.endswith("_test"):
             if not re.search(rf"^namespace ashlar(::\w+)*::{path.stem} \{{$", path.read_text(encoding="utf-8"), re.M):
                 yield f"{place}: its namespace does not end with ::{path.stem}"
+    headers = {path.relative_to(project).as_posix(): path.read_text(encoding="utf-8")
+               for path in sorted(project.glob("**/*.hpp")) if path.relative_to(project).parts[0] in LIBRARIES}
     for sources in of_library.values():
         yield from clashes_of_library(sources)
+        yield from clashes_with_headers(sources, headers)
 
 
 def self_test():
@@ -147,6 +179,12 @@ def self_test():
             found = list(faults_of(project))
             if min(len(found), 1) != expected:
                 print(f"{second!r}: {found}")
+                wrong = 1
+        (project / "solver" / "c.hpp").write_text("namespace ashlar {\nint half(double whole);\n}\n", encoding="utf-8")
+        for second, expected in (("int half(const double& all) {\n  return 1;\n}", 1), ("int half(int all) {\n  return 1;\n}", 0)):
+            (project / "solver" / "b.cpp").write_text(in_unnamed(second), encoding="utf-8")
+            if min(len(list(faults_of(project))), 1) != expected:
+                print(f"{second!r} beside a header")
                 wrong = 1
         (project / "solver" / "b.cpp").write_text("", encoding="utf-8")
         for stem, expected in (("a_test", 0), ("b_test", 1)):

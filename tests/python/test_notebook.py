@@ -29,6 +29,12 @@ def test_columns_have_units():
     assert "columns of 1 values" in repr(history)
 
 
+def test_a_history_shows_its_columns():
+    sim = scene().simulation()
+    sim.run(until=0.005)
+    assert "<tr><td>time</td><td>s</td><td>0</td><td>0.005</td></tr>" in sim.history._repr_html_()
+
+
 def test_a_history_becomes_a_table():
     pandas = pytest.importorskip("pandas")
     sim = scene().simulation()

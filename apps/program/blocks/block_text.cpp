@@ -8,6 +8,7 @@
 
 #include "apps/program/blocks/block_histogram.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
+#include "apps/scene/read/analysis_json.hpp"
 #include "geometry/boxes/box.hpp"
 
 namespace ashlar {
@@ -42,10 +43,6 @@ std::string removable_text(const Scene& scene, const std::vector<RemovableBlock>
                         to_string(of.key.mode), of.factor_of_safety);
   }
   return text;
-}
-
-Json to_json(const Vector3& vector) {
-  return {vector.x(), vector.y(), vector.z()};
 }
 
 Json key_json(const RemovableBlock& of) {

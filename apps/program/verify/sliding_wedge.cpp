@@ -9,7 +9,7 @@ namespace ashlar {
 namespace {
 
 /// Outward normal of a plane that dips by an angle towards a direction (from the north, +y, to the east, +x).
-Vector3 plane_normal(double dip, double direction) {
+Vector3 normal_of_plane(double dip, double direction) {
   constexpr double degree = std::numbers::pi / 180.0;
   return {std::sin(dip * degree) * std::sin(direction * degree),
           std::sin(dip * degree) * std::cos(direction * degree), std::cos(dip * degree)};
@@ -17,7 +17,7 @@ Vector3 plane_normal(double dip, double direction) {
 
 }  // namespace
 
-SlidingWedge::SlidingWedge() : n1(plane_normal(40, 130)), n2(plane_normal(60, 220)) {
+SlidingWedge::SlidingWedge() : n1(normal_of_plane(40, 130)), n2(normal_of_plane(60, 220)) {
   line = n1.cross(n2).normalized();
   if (line.z() > 0.0) line = -line;
   d1 = n1.cross(line);

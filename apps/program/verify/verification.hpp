@@ -97,6 +97,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> cutting_cases();
 /// Orders and steps chosen for an accuracy.
 [[nodiscard]] std::span<const VerificationCase> accuracy_cases();
+/// Cases that other programs have published.
+[[nodiscard]] std::span<const VerificationCase> peer_cases();
 /// The paper's example.
 [[nodiscard]] std::span<const VerificationCase> falling_block_cases();
 

@@ -18,13 +18,13 @@ std::vector<VerificationCheck> check_accuracy() {
   return checks;
 }
 
-constexpr std::array<VerificationCase, 1> cases = {
+constexpr std::array<VerificationCase, 1> accuracy_case_list = {
     {{"accuracy-asked", "orders and steps chosen for an accuracy: true errors", check_accuracy}}};
 
 }  // namespace
 
 std::span<const VerificationCase> accuracy_cases() {
-  return cases;
+  return accuracy_case_list;
 }
 
 }  // namespace ashlar

@@ -8,15 +8,11 @@
 
 #include "apps/program/verify/verification.hpp"
 #include "apps/program/verify/verification_blocks.hpp"
+#include "apps/program/verify/verification_contacts.hpp"
 #include "mechanics/basis/moments.hpp"
 
 namespace ashlar {
 namespace {
-
-void take_step(Simulation& simulation, double end_time) {
-  if (simulation.step(end_time) != StepStatus::accepted)
-    throw std::runtime_error("a step could not be taken");
-}
 
 std::vector<VerificationCheck> moments_tetrahedron() {
   const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},

@@ -1,5 +1,6 @@
 """The history of a run: columns with their units."""
 
+import html
 import re
 
 # Units of columns by the ends of their names, the first match counts; results.md describes the columns.
@@ -37,6 +38,12 @@ class History(dict):
             frame = frame.rename(columns={name: f"{name} ({unit_of(name)})" for name in frame.columns})
         frame.attrs["units"] = {name: unit_of(name) for name in self}
         return frame
+
+    def _repr_html_(self):
+        """Columns with units, and their first and last values."""
+        rows = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(unit_of(name))}</td>"
+                       f"<td>{values[0]:.6g}</td><td>{values[-1]:.6g}</td></tr>" for name, values in self.items() if len(values))
+        return f"<table><tr><th>column</th><th>unit</th><th>first</th><th>last</th></tr>{rows}</table>"
 
     def __repr__(self):
         rows = len(next(iter(self.values()), ()))

@@ -9,7 +9,7 @@
 namespace ashlar {
 
 /// Status of the folder itself, not of a link's target.
-static struct stat status_of(const std::filesystem::path& folder) {
+static struct stat status_of_folder(const std::filesystem::path& folder) {
   struct stat status {};
   if (::lstat(folder.c_str(), &status) != 0)
     throw std::system_error(errno, std::generic_category(), "cannot find " + folder.string());
@@ -20,13 +20,13 @@ static struct stat status_of(const std::filesystem::path& folder) {
 }
 
 FolderWatch::FolderWatch(std::filesystem::path folder) : folder_(std::move(folder)) {
-  const struct stat status = status_of(folder_);
+  const struct stat status = status_of_folder(folder_);
   device_ = status.st_dev;
   number_ = status.st_ino;
 }
 
 void FolderWatch::check() const {
-  const struct stat status = status_of(folder_);
+  const struct stat status = status_of_folder(folder_);
   if (status.st_dev == device_ && status.st_ino == number_) return;
   throw std::system_error(std::make_error_code(std::errc::no_such_file_or_directory),
                           folder_.string() + " was replaced while files were being written into it");
