@@ -11,9 +11,7 @@
 namespace ashlar {
 namespace {
 
-constexpr int test_interval = 32;
-/// Of the longest step: a motion that needs shorter ones is not resolved by steps.
-constexpr double shortest_step = 0x1p-20;
+constexpr int test_interval = 32;  ///< steps
 
 double energy_of(const BlockModel& block, const BlockState& state) {
   return block.kinetic_energy(state) + (block.rigid() ? 0.0 : block.elastic(state.position).energy);
@@ -94,40 +92,85 @@ int order_of(Integrator integrator) {
   return integrator == Integrator::dda ? 1 : 2;
 }
 
-/// Tests steps until one suffices.
-void test_step(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,
-               MotionAccuracyState& state) {
-  const SimulationSettings& settings = simulation.system().settings();
-  const double power = std::exp2(order_of(settings.integrator));
-  state.since_test = 0;
-  for (;;) {
-    const double step = settings.time_step;
-    if (!(simulation.time() + step <= request.end_time)) return;
-    ++state.tests;
-    const auto whole = tried(simulation, step, 1, request.end_time, goals);
-    const auto halves = tried(simulation, 0.5 * step, 2, request.end_time, goals);
-    const bool smooth =
-        whole && halves && whole->marks == halves->marks && whole->marks == contact_marks(simulation);
-    if (!smooth) return;
-    state.local_error = difference(simulation, state.scales, *whole, *halves) * power / (power - 1.0);
-    const double allowed = request.accuracy * step / request.end_time;
-    if (state.local_error > allowed && step > shortest_step * request.longest_step) {
-      simulation.set_time_step(0.5 * step);
-      state.time_step = 0.5 * step;
-      state.local_error /= 2.0 * power;
-      continue;
+/// Tests of steps that begin at the present state.
+class StepTests {
+ public:
+  StepTests(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,
+            MotionAccuracyState& state)
+      : simulation_(simulation),
+        request_(request),
+        goals_(goals),
+        state_(state),
+        power_(std::exp2(order_of(simulation.system().settings().integrator))),
+        marks_(contact_marks(simulation)) {}
+
+  /// Chooses the length of the next step.
+  void choose() {
+    const double step = simulation_.system().settings().time_step;
+    const std::optional<double> error = local_error(step);
+    if (!error) return;
+    state_.local_error = *error;
+    if (*error > allowed(step))
+      halve(step, *error);
+    else
+      double_if_enough(step, *error);
+  }
+
+ private:
+  /// Of a whole step, relative. Empty: it is cut or longer than what is left, or contacts change.
+  std::optional<double> local_error(double step) {
+    if (!(simulation_.time() + step <= request_.end_time)) return std::nullopt;
+    ++state_.tests;
+    const auto whole = tried(simulation_, step, 1, request_.end_time, goals_);
+    const auto halves = tried(simulation_, 0.5 * step, 2, request_.end_time, goals_);
+    if (!whole || !halves || whole->marks != halves->marks || whole->marks != marks_) return std::nullopt;
+    return difference(simulation_, state_.scales, *whole, *halves) * power_ / (power_ - 1.0);
+  }
+
+  [[nodiscard]] double allowed(double step) const { return request_.accuracy * step / request_.end_time; }
+
+  void take(double step, double error) {
+    simulation_.set_time_step(step);
+    state_.time_step = step;
+    state_.local_error = error;
+  }
+
+  void halve(double step, double error) {
+    constexpr int most_halvings = 4;
+    double shorter = step, left = error;
+    for (int k = 0; k < most_halvings && left > allowed(shorter); ++k) {
+      const std::optional<double> next = local_error(0.5 * shorter);
+      if (!next) break;
+      shorter *= 0.5;
+      left = *next;
     }
+    // What shorter steps do not reduce is the tolerance of contact and rounding, which do not add up.
+    constexpr double reduced = 0.5;
+    if (shorter < step && left > reduced * error) {
+      state_.noise = std::max(state_.noise, error);
+      state_.local_error = 0.0;
+    } else if (shorter < step) {
+      take(shorter, left);
+    }
+    if (left > allowed(shorter) && state_.local_error > 0.0) state_.since_test = test_interval;
+  }
+
+  void double_if_enough(double step, double error) {
     // Twice the step has 2^(p + 1) times the error and twice the share.
     constexpr double margin = 0.7;
-    if (power * state.local_error > margin * allowed || 2.0 * step > request.longest_step) return;
-    simulation.set_time_step(2.0 * step);
-    state.time_step = 2.0 * step;
-    state.local_error *= 2.0 * power;
-    // Soon tested again.
-    state.since_test = test_interval - 4;
-    return;
+    constexpr int soon = 4;
+    if (power_ * error > margin * allowed(step) || 2.0 * step > request_.longest_step) return;
+    take(2.0 * step, 2.0 * power_ * error);
+    state_.since_test = test_interval - soon;
   }
-}
+
+  Simulation& simulation_;
+  const MotionRequest& request_;
+  const GoalValues& goals_;
+  MotionAccuracyState& state_;
+  double power_;  ///< 2^p
+  std::vector<int> marks_;
+};
 
 }  // namespace
 
@@ -177,8 +220,10 @@ std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const
 void choose_step(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,
                  MotionAccuracyState& state) {
   const std::vector<int> marks = contact_marks(simulation);
-  if (simulation.steps() == 0 || marks != state.contact_marks || state.since_test >= test_interval)
-    test_step(simulation, request, goals, state);
+  if (simulation.steps() == 0 || marks != state.contact_marks || state.since_test >= test_interval) {
+    state.since_test = 0;
+    StepTests(simulation, request, goals, state).choose();
+  }
   state.contact_marks = marks;
 }
 

@@ -1,6 +1,7 @@
 // Error of motion against run time, for the options of a user: order, integrator, step and formulation.
 #pragma once
 
+#include "apps/program/study/orders_study.hpp"
 #include "apps/program/study/study.hpp"
 
 namespace ashlar {
@@ -26,17 +27,12 @@ struct ErrorTimeStudySize {
 /// Columns: problem, curve (in the order of the picture), order, integrator (0 dda, 1 average-acceleration, 2
 /// generalized-alpha), springs and incremental (0 or 1), time step (s; in problem 2 in periods; 0: static), error,
 /// seconds (of the processor, including the construction of the scene), front (1: no faster run has a smaller error),
-/// accuracy (> 0: the step, or the order of the cantilever, is chosen for it as by analysis.accuracy).
+/// accuracy (> 0: the step, or the order of the cantilever, is chosen for it as by analysis.accuracy), estimate (of the error,
+/// by such a run).
 /// An error that is not finite is a failed run.
 [[nodiscard]] StudyResult study_error_time();
 
-/// A run of these problems whose step, or whose order, is chosen for an accuracy.
-struct ChosenRun {
-  std::string name;
-  double accuracy;  ///< asked for, relative
-  double error;     ///< true one
-};
-/// @param accuracies number of them: 0.1, 0.01, ...
+/// Runs of these problems whose step or order is chosen. @param accuracies number of them: 0.1, 0.01, ...
 [[nodiscard]] std::vector<ChosenRun> chosen_runs(int accuracies);
 [[nodiscard]] StudyResult study_error_time(const ErrorTimeStudySize& size);
 

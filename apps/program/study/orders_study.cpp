@@ -198,20 +198,19 @@ double cantilever_error(int order) {
   return solve_cantilever(order).error;
 }
 
-double cantilever_error_for(double accuracy) {
+ChosenRun cantilever_for(double accuracy) {
   Simulation simulation = lone_block(cantilever(1), {}, {});
-  const auto tip = [](const Simulation& now) {
-    return displacement(now.blocks()[0], now.states()[0].position, tip_of_cantilever).z();
+  const GoalValues tip = [](const Simulation& now) {
+    return std::vector<Goal>{
+        {"tip", {displacement(now.blocks()[0], now.states()[0].position, tip_of_cantilever).z()}}};
   };
   AccuracyRounds rounds;
-  const StaticStatus status = find_equilibrium(
-      simulation, 1.0, {accuracy, {true}},
-      [&](const Simulation& now) {
-        return std::vector<Goal>{{"tip", {tip(now)}}};
-      },
-      rounds, [] { return true; });
-  if (status != StaticStatus::equilibrium) throw std::runtime_error("the cantilever has no equilibrium");
-  return std::abs(tip(simulation) / converged_tip - 1.0);
+  if (find_equilibrium(simulation, 1.0, {accuracy, {true}}, tip, rounds, [] { return true; }) !=
+      StaticStatus::equilibrium)
+    throw std::runtime_error("the cantilever has no equilibrium");
+  const std::vector<Goal> reached = tip(simulation);
+  return {"cantilever", accuracy, std::abs(reached[0].values[0] / converged_tip - 1.0),
+          accuracy_estimate(reached, rounds).largest()};
 }
 
 StudyResult study_orders() {

@@ -17,7 +17,15 @@ namespace ashlar {
 /// Relative error of the tip of the first problem.
 [[nodiscard]] double cantilever_error(int order);
 
-/// The same with the order chosen for an accuracy of the tip.
-[[nodiscard]] double cantilever_error_for(double accuracy);
+/// A run whose order, or whose step, is chosen for an accuracy. All relative.
+struct ChosenRun {
+  std::string name;
+  double accuracy;  ///< asked for
+  double error;     ///< true one
+  double estimate;  ///< told by the run
+};
+
+/// The first problem with the order chosen for an accuracy of the tip.
+[[nodiscard]] ChosenRun cantilever_for(double accuracy);
 
 }  // namespace ashlar

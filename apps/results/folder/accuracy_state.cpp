@@ -25,12 +25,12 @@ Json orders_of(const Simulation& simulation) {
 
 double AccuracyState::estimate() const {
   return (goals.empty() ? order_error + sub_face_error : *std::max_element(goals.begin(), goals.end())) +
-         motion.error;
+         motion.error + motion.noise;
 }
 
 std::string accuracy_advice(const Scene& scene, const Simulation& simulation, const AccuracyState& state) {
   if (!(state.estimate() > *scene.analysis.accuracy)) return {};
-  const double by_step = state.motion.error;
+  const double by_step = state.motion.error + state.motion.noise;
   if (by_step > state.order_error && by_step > state.sub_face_error)
     return "the motion has impacts or vibrations that no larger step resolves: a larger accuracy, or a given "
            "time_step, is needed";
@@ -55,11 +55,11 @@ std::string accuracy_advice(const Scene& scene, const Simulation& simulation, co
 nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& simulation,
                                         const AccuracyState& state) {
   Json by = {{"order", state.order_error}, {"sub_faces", state.sub_face_error}};
-  if (scene.analysis.automatic_step) by["step"] = state.motion.error;
+  if (scene.analysis.automatic_step) by["step"] = state.motion.error + state.motion.noise;
   Json json = {{"accuracy", *scene.analysis.accuracy}, {"estimate", state.estimate()}, {"by", std::move(by)}};
   Json measures = Json::object();
   for (std::size_t k = 0; k < state.goals.size(); ++k)
-    measures[scene.measure[k].name] = state.goals[k] + state.motion.error;
+    measures[scene.measure[k].name] = state.goals[k] + state.motion.error + state.motion.noise;
   json["measures"] = std::move(measures);
   json["orders"] = orders_of(simulation);
   json["analyses"] = state.rounds;

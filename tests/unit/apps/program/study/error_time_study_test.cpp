@@ -10,7 +10,7 @@ namespace {
 TEST(ErrorTimeStudy, HalfTheStepIsAQuarterOfTheErrorOfWhatTumbles) {
   const StudyResult result = study_error_time({2, 1, 2});
   EXPECT_TRUE(result.holds) << "chosen runs meet what is asked";
-  ASSERT_EQ(result.columns.size(), 11U);
+  ASSERT_EQ(result.columns.size(), 12U);
   // Curves of two steps: seven, four and six, and eight orders; six of two accuracies.
   ASSERT_EQ(result.rows.size(), 2U * 17U + 8U + 2U * 6U);
   for (const PlotSeries& series : result.plot.series) {
