@@ -88,7 +88,7 @@ double moment_error(int degree, double error_of_coordinates) {
 
 PolynomialBasis::Parts::Parts(const Polyhedron& solid, int the_order) : order(the_order) {
   if (order < 0 || order > max_order) throw std::invalid_argument("order of a basis must be 0 to 12");
-  if (!make<DoubleDouble, DoubleDouble>(solid) && !make<FiftyDigits, DoubleDouble>(solid))
+  if (!make<ExtendedDouble, ExtendedDouble>(solid) && !make<FiftyDigits, ExtendedDouble>(solid))
     (void)make<FiftyDigits, FiftyDigits>(solid);
 }
 

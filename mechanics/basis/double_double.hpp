@@ -12,19 +12,19 @@
 
 namespace ashlar {
 
-using DoubleDouble = dd_real;
+using ExtendedDouble = dd_real;
 
 /// Bounds the relative error of a sum, product or quotient.
 template <class Real>
 constexpr double unit_roundoff = 0.0;
 /// Four times 2^-104: QD's sums are of its sloppy kind, with an error for each term.
 template <>
-inline constexpr double unit_roundoff<DoubleDouble> = 0x1p-102;
+inline constexpr double unit_roundoff<ExtendedDouble> = 0x1p-102;
 template <>
 inline constexpr double unit_roundoff<FiftyDigits> = 1e-50;
 
 /// To the nearest double.
-[[nodiscard]] inline double rounded(const DoubleDouble& value) {
+[[nodiscard]] inline double rounded(const ExtendedDouble& value) {
   return value.x[0];
 }
 [[nodiscard]] inline double rounded(const FiftyDigits& value) {

@@ -265,7 +265,7 @@ std::vector<double> moment_sizes(const std::vector<Vector3>& points, const Trian
   template std::vector<Real> multiplied(const RealMatrix<Real>&, const RealMatrix<Real>&,                 \
                                         const std::vector<std::array<int, 3>>&, const SeedProduct&);      \
   template std::vector<Real> seed_values(const std::array<Real, 3>&, int);
-ASHLAR_INSTANTIATE(DoubleDouble)
+ASHLAR_INSTANTIATE(ExtendedDouble)
 ASHLAR_INSTANTIATE(FiftyDigits)
 #undef ASHLAR_INSTANTIATE
 

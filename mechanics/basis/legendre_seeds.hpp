@@ -2,7 +2,7 @@
 // these are proven to suffice, else in 50. Only sources of this folder include this file.
 //
 // The seeds are L_a(xi) L_b(eta) L_c(zeta), by monomial_index(a, b, c); phi = inverse(L) seed, L L' the Gram
-// matrix of the seeds over the solid. Real is DoubleDouble or FiftyDigits.
+// matrix of the seeds over the solid. Real is ExtendedDouble or FiftyDigits.
 #pragma once
 
 #include <Eigen/Core>

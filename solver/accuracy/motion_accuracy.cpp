@@ -22,15 +22,14 @@ double mean_length(const BlockModel& block, const Eigen::MatrixX3d& field) {
   return field.norm() / std::sqrt(block.basis().volume());
 }
 
-/// Contact state of each pair: numbers of open, locked and sliding points are too fine, as points come and go with the
-/// places of blocks; the kinds that a pair has are not.
+/// Pairs that touch. Points come and go, stick and slide with the places of blocks, hardly any step without.
 std::vector<int> contact_marks(const Simulation& simulation) {
   std::vector<int> marks;
   for (const PairRecord& pair : simulation.contacts()) {
-    int kinds = 0;
-    for (const PointResponse& response : pair.responses)
-      if (response.state != ContactState::open) kinds |= 1 << static_cast<int>(response.state);
-    if (kinds != 0) marks.insert(marks.end(), {pair.a, pair.b, kinds});
+    const bool touches =
+        std::any_of(pair.responses.begin(), pair.responses.end(),
+                    [](const PointResponse& response) { return response.state != ContactState::open; });
+    if (touches) marks.insert(marks.end(), {pair.a, pair.b});
   }
   return marks;
 }

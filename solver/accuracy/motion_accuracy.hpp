@@ -45,7 +45,7 @@ struct MotionAccuracyState {
   double impact_error = 0.0;       ///< largest distance moved in a step in which contacts changed, relative
   std::int64_t impacts = 0;        ///< steps in which contacts changed
   std::int64_t tests = 0;          ///< steps tried whole and in halves
-  std::vector<int> contact_marks;  ///< of the contacts after the last step
+  std::vector<int> contact_marks;  ///< pairs in touch after the last step
 };
 
 struct MotionRequest {

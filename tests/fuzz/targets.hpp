@@ -37,6 +37,9 @@ bool glb(std::string_view bytes);         //
 bool dxf(std::string_view bytes);         //
 bool package(std::string_view bytes);     ///< a 3MF file, which is a zip archive
 bool model(std::string_view bytes);       ///< its model part, without the archive's checksums around it
+bool compas(std::string_view bytes);      ///< a model of COMPAS
+bool poly(std::string_view bytes);        ///< blocks of a 3DEC data file
+bool unblocks(std::string_view bytes);    ///< blocks of UnBlocks-gen
 bool checkpoint(std::string_view bytes);  ///< the stored state of a simulation, without header and hash
 bool vtu(std::string_view bytes);         ///< a frame, and its curved cells divided for the page
 bool pvd(std::string_view bytes);         ///< the list of frames
@@ -50,27 +53,18 @@ struct Target {
   bool lasting = true;
 };
 
-inline constexpr std::array<Target, 22> targets = {{{"scene", scene},
-                                                    {"include", include},
-                                                    {"formula", formula},
-                                                    {"record", record},
-                                                    {"volume2", volume2},
-                                                    {"smc", smc},
-                                                    {"joints", joints},
-                                                    {"grid", grid},
-                                                    {"off", off},
-                                                    {"obj", obj},
-                                                    {"stl", stl},
-                                                    {"ply", ply},
-                                                    {"groups", groups},
-                                                    {"gltf", gltf},
-                                                    {"glb", glb},
-                                                    {"dxf", dxf},
-                                                    {"package", package},
-                                                    {"model", model},
-                                                    {"checkpoint", checkpoint, false},
-                                                    {"vtu", vtu},
-                                                    {"pvd", pvd},
+inline constexpr std::array<Target, 25> targets = {{{"scene", scene},       {"include", include},
+                                                    {"formula", formula},   {"record", record},
+                                                    {"volume2", volume2},   {"smc", smc},
+                                                    {"joints", joints},     {"grid", grid},
+                                                    {"off", off},           {"obj", obj},
+                                                    {"stl", stl},           {"ply", ply},
+                                                    {"groups", groups},     {"gltf", gltf},
+                                                    {"glb", glb},           {"dxf", dxf},
+                                                    {"package", package},   {"model", model},
+                                                    {"compas", compas},     {"poly", poly},
+                                                    {"unblocks", unblocks}, {"checkpoint", checkpoint, false},
+                                                    {"vtu", vtu},           {"pvd", pvd},
                                                     {"summary", summary}}};
 
 }  // namespace ashlar::fuzz

@@ -23,7 +23,7 @@ class SyntaxCheck {
  public:
   using Json = nlohmann::json;
 
-  explicit SyntaxCheck(std::string_view text) : text_(text) {}
+  SyntaxCheck(std::string_view text, std::string_view kind) : text_(text), kind_(kind) {}
 
   bool null() { return true; }
   bool boolean(bool) { return true; }
@@ -38,7 +38,7 @@ class SyntaxCheck {
   bool start_array(std::size_t) { return open(); }
   bool end_array() { return close(); }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) {
-    throw error_at(text_, position, "text is no JSON from here on, a glTF file is JSON");
+    throw error_at(text_, position, fmt::format("text is no JSON from here on, {} is JSON", kind_));
   }
 
  private:
@@ -53,14 +53,14 @@ class SyntaxCheck {
     return true;
   }
 
-  std::string_view text_;
+  std::string_view text_, kind_;
   std::size_t levels_ = 0;
 };
 
 }  // namespace
 
-nlohmann::json parse_json_file(std::string_view text) {
-  SyntaxCheck check(text);
+nlohmann::json parse_json_file(std::string_view text, std::string_view kind) {
+  SyntaxCheck check(text, kind);
   nlohmann::json::sax_parse(text.begin(), text.end(), &check);
   return nlohmann::json::parse(text.begin(), text.end());
 }
@@ -95,6 +95,21 @@ std::size_t JsonNode::size() const {
 JsonNode JsonNode::at(std::size_t index) const {
   if (index >= size()) fail(fmt::format("has {} elements", size()), fmt::format("more than {}", index));
   return {part((*value_)[index]), fmt::format("{}[{}]", path_, index)};
+}
+
+std::vector<std::pair<std::string, JsonNode>> JsonNode::members() const {
+  if (!value_->is_object()) fail("is no object", "{...}");
+  std::vector<std::pair<std::string, JsonNode>> members;
+  for (const auto& [name, value] : value_->items())
+    members.emplace_back(name, JsonNode(value, path_.empty() ? name : fmt::format("{}.{}", path_, name)));
+  const auto is_number = [](const std::string& name) {
+    return !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+  };
+  std::stable_sort(members.begin(), members.end(), [&](const auto& a, const auto& b) {
+    if (!is_number(a.first) || !is_number(b.first)) return is_number(a.first) && !is_number(b.first);
+    return a.first.size() != b.first.size() ? a.first.size() < b.first.size() : a.first < b.first;
+  });
+  return members;
 }
 
 const std::string& JsonNode::text() const {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "geometry/mesh/mesh_io.hpp"
 
@@ -14,8 +16,9 @@ namespace ashlar {
 /// Largest nesting of arrays and objects. glTF itself needs 7 levels; data under "extras" may be deeper.
 inline constexpr std::size_t most_json_levels = 100;
 
-/// Parses a whole text. The tree needs up to 50 times its bytes. @throws MeshFileError with line and column
-[[nodiscard]] nlohmann::json parse_json_file(std::string_view text);
+/// Parses a whole text. The tree needs up to 50 times its bytes. @param kind of the file, for the message
+/// @throws MeshFileError with line and column
+[[nodiscard]] nlohmann::json parse_json_file(std::string_view text, std::string_view kind = "a glTF file");
 
 /// A value of a tree with its path, such as accessors[3].count.
 /// All members @throws MeshFileError "PATH is ..., allowed ...".
@@ -31,6 +34,13 @@ class JsonNode {
   /// Elements of an array.
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] JsonNode at(std::size_t index) const;
+  /// Members of an object with their names, sorted by these; numbers among them by value.
+  [[nodiscard]] std::vector<std::pair<std::string, JsonNode>> members() const;
+
+  [[nodiscard]] bool is_null() const { return value_->is_null(); }
+  [[nodiscard]] bool is_object() const { return value_->is_object(); }
+  [[nodiscard]] bool is_array() const { return value_->is_array(); }
+  [[nodiscard]] bool is_text() const { return value_->is_string(); }
 
   [[nodiscard]] const std::string& text() const;
   [[nodiscard]] double number() const;

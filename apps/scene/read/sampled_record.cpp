@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/scene/read/lower_case.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -22,13 +24,6 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return result;
 }
 
 /// A finite number that is the whole text but for blanks.
@@ -192,7 +187,7 @@ class Volume2Reader {
 
   std::optional<Rows> read() {
     while (lines_.next()) {
-      auto head = head_of_series(lower(lines_.line()));
+      auto head = head_of_series(lower_case(lines_.line()));
       if (!head) {
         if (!series_.empty() && after_series_ && holds_values(lines_.line(), layout_)) {
           lines_.fault(1, fmt::format("record has more values than its head says ({})", last_count_));

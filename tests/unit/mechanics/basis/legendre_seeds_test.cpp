@@ -18,7 +18,7 @@ constexpr double exact = 1e4 * unit_roundoff<Real>;
 
 template <class Real>
 class LegendreSeeds : public testing::Test {};
-using Reals = testing::Types<DoubleDouble, FiftyDigits>;
+using Reals = testing::Types<ExtendedDouble, FiftyDigits>;
 TYPED_TEST_SUITE(LegendreSeeds, Reals);
 
 /// Moments of [-1, 1]^3, where the seeds are orthogonal.
@@ -120,11 +120,11 @@ TYPED_TEST(LegendreSeeds, MomentsAreOffByNoMoreThanTheirSizesSay) {
 
 TEST(DoubleDoubles, AreRoundedAndConverted) {
   const FiftyDigits third = FiftyDigits(1) / FiftyDigits(3);
-  const DoubleDouble value = converted<DoubleDouble>(third);
+  const ExtendedDouble value = converted<ExtendedDouble>(third);
   EXPECT_EQ(rounded(value), 1.0 / 3.0);
   // 1/3 as a double is lower by 2^-54 / 3.
-  EXPECT_NEAR(rounded(DoubleDouble(value - 1.0 / 3.0)), 0x1p-54 / 3.0, 0x1p-106);
-  EXPECT_EQ(rounded(DoubleDouble(converted<DoubleDouble>(value) - value)), 0.0);
+  EXPECT_NEAR(rounded(ExtendedDouble(value - 1.0 / 3.0)), 0x1p-54 / 3.0, 0x1p-106);
+  EXPECT_EQ(rounded(ExtendedDouble(converted<ExtendedDouble>(value) - value)), 0.0);
 }
 
 }  // namespace

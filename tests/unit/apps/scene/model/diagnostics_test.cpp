@@ -27,7 +27,8 @@ TEST(Diagnostics, PrintsInFileOrderWithArgumentsLast) {
 }
 
 TEST(Diagnostics, PrintsEachFaultInOneLine) {
-  EXPECT_EQ(to_string(Diagnostic{{"s.toml", 1, 2}, "wrong (a\nb\tc)"}), "s.toml:1:2: error: wrong (a b c)");
+  const Diagnostic fault{{"s.toml", 1, 2}, "wrong (a\nb\tc)"};
+  EXPECT_EQ(to_string(fault), "s.toml:1:2: error: wrong (a b c)");
 }
 
 TEST(Diagnostics, LeavesTheMiddleOfLongLinesOut) {
