@@ -47,7 +47,8 @@ class CMakeBuild(build_ext):
         folder = pathlib.Path(self.build_temp) / "cmake"
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         run("cmake", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DASHLAR_BUILD_TESTS=OFF",
-            "-DASHLAR_BUILD_BENCHMARKS=OFF", "-DASHLAR_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}")
+            "-DASHLAR_BUILD_BENCHMARKS=OFF", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12",
+            "-DASHLAR_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}")
         jobs = subprocess.run(["bash", ROOT / "apps" / "build_jobs.sh"], check=True, capture_output=True, text=True)
         run("cmake", "--build", folder, "--target", "ashlar_python", "--parallel", jobs.stdout.strip())
         return folder

@@ -176,7 +176,7 @@ def layer_project(layer, folder, jobs):
                           CCACHE_BASEDIR=str(source), CCACHE_NOHASHDIR="1")
     # With assertions, so that reads beyond an array are detected.
     if run(["cmake", "--preset", "release", "-DASHLAR_WARNINGS_AS_ERRORS=OFF", "-DASHLAR_BUILD_BENCHMARKS=OFF",
-            "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -D_GLIBCXX_ASSERTIONS"], cwd=source) != 0:
+            "-DCMAKE_UNITY_BUILD=OFF", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -D_GLIBCXX_ASSERTIONS"], cwd=source) != 0:
         raise SystemExit(f"error: {source} cannot be configured")
     program = f"build/release/tests/{layer}_tests"
     everything = [program, "--gtest_brief=1", "--gtest_fail_fast"]
