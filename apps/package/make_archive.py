@@ -177,6 +177,10 @@ def write_sbom(root, version, libraries):
         known = package_of(file)
         name, of, licence = known or (file.name, "unknown", None)
         packages.setdefault((name, of), (licence, []))[1].append(file.name)
+    static = Path("/usr/share/doc/libhdf5-dev/copyright")  # part of the program itself, if static libraries were found
+    if static.is_file() and not any(file.name.startswith("libhdf5") for file in libraries.values()):
+        of = output_of("dpkg-query", "-W", "-f", "${Version}\n", "libhdf5-dev").splitlines()[0]
+        packages["libhdf5-dev", of] = (static, ["libhdf5_serial.a"])
     licences = root / "share" / "licences"
     licences.mkdir(parents=True)
     entries = [{"SPDXID": "SPDXRef-ashlar", "name": "ashlar", "versionInfo": version,

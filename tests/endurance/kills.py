@@ -25,7 +25,8 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).parent
-TABLES = ["history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd", "joints.pvd"]
+TABLES = ["history.csv", "contacts.csv"]
+ONE_FILE = "results.vtkhdf"
 # Conditions of a resumed run: no result depends on them.
 MANNERS = [["--checkpoint", "0"], ["--checkpoint", "0.02"], [], ["--checkpoint", "0.01", "--threads", "2"]]
 # Keys of the summary for clocks, memory, and work that a resumed run repeats.
@@ -97,14 +98,37 @@ def end_at(kind, out, manner, moment, ending):
 
 def differences(a, b):
     """Names of the differences between two result folders."""
-    names = sorted(p.name for p in (a / "frames").iterdir())
-    if names != sorted(p.name for p in (b / "frames").iterdir()):
+    names = sorted(str(p.relative_to(a)) for p in frame_files(a))
+    if names != sorted(str(p.relative_to(b)) for p in frame_files(b)):
         return ["the list of frames"]
-    files = TABLES + ["frames/" + name for name in names]
+    files = TABLES + [name for name in names if not name.endswith(".vtkhdf")]
     found = [name for name in files if not filecmp.cmp(a / name, b / name, shallow=False)]
+    if ONE_FILE in names and contents(a / ONE_FILE) != contents(b / ONE_FILE):
+        found.append(ONE_FILE)
     summaries = [told_by(folder / "summary.json") for folder in (a, b)]
     keys = summaries[0].keys() | summaries[1].keys()
     return found + [f"summary.json: {key}" for key in sorted(keys) if summaries[0].get(key) != summaries[1].get(key)]
+
+
+def frame_files(folder):
+    """Files of frames, those that a killed run leaves included."""
+    return [*folder.glob("frames/*"), *folder.glob("*.pvd"), *folder.glob(ONE_FILE + "*")]
+
+
+def contents(path):
+    """Values of every dataset and attribute of an HDF5 file."""
+    import h5py
+    found = {}
+
+    def add(name, member):
+        found[name] = {key: str(value) for key, value in member.attrs.items()}
+        if isinstance(member, h5py.Dataset):
+            values = member[()]
+            found[name]["values"] = list(values) if member.dtype.kind == "O" else (member.shape, values.tobytes())
+
+    with h5py.File(path) as file:
+        file.visititems(add)
+    return found
 
 
 def told_by(path):

@@ -13,7 +13,9 @@
 
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/frames/pvd_writer.hpp"
+#include "apps/results/frames/vtkhdf_file.hpp"
 #include "apps/results/frames/vtu_writer.hpp"
+#include "geometry/index.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 
@@ -118,6 +120,23 @@ UnstructuredGrid solid_grid() {
   return solid_frame(blocks, states, drawn_solids(blocks, false), fields);
 }
 
+// The samples above as three frames of a file, see FRAMES of read_vtkhdf.py.
+void write_frames(const std::filesystem::path& path) {
+  create_vtkhdf(path, std::vector<std::string>{"mixed", "curved", "points"});
+  const std::vector<std::string> names = mixed_grid().block_names;
+  UnstructuredGrid none;
+  none.point_data.push_back({"value", 1, {}, std::vector<double>{}});
+  const std::array points = {none, many_points(4096), many_points(4097)};
+  const std::array orders = {2, 3, 5};
+  for (int k = 0; k < 3; ++k) {
+    append_vtkhdf(path, {0.1 * k, 10 * k},
+                  std::vector<SeriesGrid>{{"mixed", mixed_grid()},
+                                          {"curved", curved_grid(orders.at(at(k)), false)},
+                                          {"points", points.at(at(k))}},
+                  names);
+  }
+}
+
 void write_samples(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "frames");
   write_vtu(folder / "frames/mixed.vtu", mixed_grid());
@@ -132,6 +151,7 @@ void write_samples(const std::filesystem::path& folder) {
   PvdWriter series(folder / "samples.pvd");
   series.add_frame(0.0, "frames/empty.vtu");
   series.add_frame(0.1 + 0.2, "frames/mixed.vtu");
+  write_frames(folder / "samples.vtkhdf");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,7 +13,6 @@
 #include "apps/program/view/pack_marks.hpp"
 #include "apps/program/view/packed_numbers.hpp"
 #include "apps/results/frames/grid_arrays.hpp"
-#include "apps/results/frames/vtu_reader.hpp"
 #include "apps/results/tables/history_table.hpp"
 #include "apps/scene/toml/input_file.hpp"
 #include "geometry/index.hpp"
@@ -152,14 +150,6 @@ void pack_points(PackedNumbers& numbers, const UnstructuredGrid& contacts) {
   numbers.add_points(contacts.points);
 }
 
-/// "frames/blocks_0000950.vtu" is step 950.
-int step_of(const std::string& file) {
-  const std::size_t start = file.find_last_of('_');
-  int step = 0;
-  if (start != std::string::npos) std::from_chars(file.data() + start + 1, file.data() + file.size(), step);
-  return step;
-}
-
 /// The folder, if it has results.
 const std::filesystem::path& checked_folder(const std::filesystem::path& folder) {
   constexpr const char* needed =
@@ -169,15 +159,10 @@ const std::filesystem::path& checked_folder(const std::filesystem::path& folder)
                                          std::filesystem::exists(folder) ? "is a file" : "does not exist",
                                          needed));
   }
-  if (!std::filesystem::exists(folder / "blocks.pvd"))
-    throw std::runtime_error(
-        fmt::format("no results in {} (blocks.pvd does not exist), {}", folder.string(), needed));
+  if (!has_stored_frames(folder))
+    throw std::runtime_error(fmt::format(
+        "no results in {} (neither blocks.pvd nor results.vtkhdf exists), {}", folder.string(), needed));
   return folder;
-}
-
-/// Frames of a run with output.solid have volumes, and separate surfaces of blocks.
-const char* surface_series(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / "surfaces.pvd") ? "surfaces.pvd" : "blocks.pvd";
 }
 
 /// True if blocks may be added or removed.
@@ -186,35 +171,25 @@ bool has_stages(const std::filesystem::path& folder) {
   return std::find(columns.begin(), columns.end(), "stage") != columns.end();
 }
 
-/// None without the file.
-std::vector<PvdFrame> optional_frames(const std::filesystem::path& path) {
-  return std::filesystem::exists(path) ? read_pvd(path) : std::vector<PvdFrame>{};
-}
-
 }  // namespace
 
 ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
-    : folder_(checked_folder(folder)),
-      points_(points),
-      blocks_(read_pvd(folder / surface_series(folder))),
-      contacts_(read_pvd(folder / "contacts.pvd")),
-      joints_(optional_frames(folder / "joints.pvd")),
-      bolts_(optional_frames(folder / "bolts.pvd")),
-      loads_(optional_frames(folder / "loads.pvd")) {
+    : points_(points), stored_(open_stored_frames(checked_folder(folder))) {
+  // Frames of a run with output.solid have volumes, and separate surfaces of blocks.
+  if (stored_->has("surfaces")) blocks_ = "surfaces";
   // A run in progress has written some of them first.
-  count_ = std::min(blocks_.size(), contacts_.size());
-  for (const auto* frames : {&joints_, &bolts_, &loads_})
-    if (!frames->empty()) count_ = std::min(count_, frames->size());
+  count_ = std::min(stored_->count(blocks_), stored_->count("contacts"));
+  for (const char* series : {"joints", "bolts", "loads"})
+    if (written(series)) count_ = std::min(count_, stored_->count(series));
   if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
-  const std::filesystem::path path = folder_ / blocks_.front().file;
-  UnstructuredGrid first = read_vtu(path);
+  const std::filesystem::path path = stored_->file(blocks_, 0);
+  UnstructuredGrid first = stored_->read(blocks_, 0);
   block_names_ = first.block_names;
   std::optional<std::vector<std::int32_t>> fixed;
   if (has_stages(folder)) {
     for (std::size_t k = 0; k < count_; ++k) {
-      const std::filesystem::path frame = folder_ / blocks_[k].file;
-      const UnstructuredGrid grid = read_vtu(frame);
-      naming_the_file(frame, [&] { all_blocks_.add(grid); });
+      const UnstructuredGrid grid = stored_->read(blocks_, k);
+      naming_the_file(stored_->file(blocks_, k), [&] { all_blocks_.add(grid); });
     }
     first = all_blocks_.whole();
   }
@@ -223,20 +198,22 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
     curved_ = std::make_unique<CurvedCells>(first);
     surface_ = surface_of(curved_->divided(std::move(first)));
   });
-  if (!joints_.empty()) {
-    const std::filesystem::path joints = folder_ / joints_.front().file;
-    surface_.water = find_values<double>(read_vtu(joints).cell_data, "water_pressure", 1) != nullptr;
-  }
+  if (written("joints"))
+    surface_.water =
+        find_values<double>(stored_->read("joints", 0).cell_data, "water_pressure", 1) != nullptr;
   surface_.fixed = fixed ? *std::move(fixed) : blocks_that_never_move();
+}
+
+bool ViewFrames::written(const std::string& series) const {
+  return stored_->has(series) && stored_->count(series) > 0;
 }
 
 std::vector<std::int32_t> ViewFrames::blocks_that_never_move() const {
   std::map<std::int32_t, std::vector<Vector3>> first;
   std::set<std::int32_t> moved;
   for (std::size_t k = 0; k < count_; ++k) {
-    const std::filesystem::path path = folder_ / blocks_[k].file;
-    const UnstructuredGrid grid = read_vtu(path);
-    naming_the_file(path, [&] {
+    const UnstructuredGrid grid = stored_->read(blocks_, k);
+    naming_the_file(stored_->file(blocks_, k), [&] {
       for (auto& [block, places] : places_of_order_zero(grid)) {
         const auto [known, is_new] = first.try_emplace(block, std::move(places));
         if (!is_new && known->second != places) moved.insert(block);
@@ -251,31 +228,26 @@ std::vector<std::int32_t> ViewFrames::blocks_that_never_move() const {
 
 ViewFrameData ViewFrames::read(std::size_t index) const {
   PackedNumbers numbers;
-  Json head = {{"index", index}, {"step", step_of(blocks_[index].file)}, {"time", blocks_[index].time}};
-  const std::filesystem::path of_blocks = folder_ / blocks_[index].file;
-  UnstructuredGrid blocks = read_vtu(of_blocks);
-  naming_the_file(of_blocks, [&] {
+  const FrameTime frame = stored_->time(blocks_, index);
+  Json head = {{"index", index}, {"step", frame.step}, {"time", frame.time}};
+  UnstructuredGrid blocks = stored_->read(blocks_, index);
+  naming_the_file(stored_->file(blocks_, index), [&] {
     pack_blocks(numbers, curved_->divided(all_blocks_.completed(std::move(blocks))), surface_);
   });
   head["joints"] = head["corners"] = 0;
-  if (!joints_.empty()) {
-    const std::filesystem::path of_joints = folder_ / joints_[index].file;
-    const UnstructuredGrid joints = read_vtu(of_joints);
-    naming_the_file(of_joints, [&] { pack_joints(numbers, joints, surface_.water, head); });
-  }
-  const std::filesystem::path of_contacts = folder_ / contacts_[index].file;
-  const UnstructuredGrid contacts = read_vtu(of_contacts);
+  const auto pack = [&](const char* series, auto function) {
+    if (!written(series)) return;
+    const UnstructuredGrid grid = stored_->read(series, index);
+    naming_the_file(stored_->file(series, index), [&] { function(numbers, grid, head); });
+  };
+  pack("joints", [&](auto& to, const auto& grid, Json& of) { pack_joints(to, grid, surface_.water, of); });
+  const std::filesystem::path of_contacts = stored_->file("contacts", index);
+  const UnstructuredGrid contacts = stored_->read("contacts", index);
   const bool kept = points_ == ViewPoints::all || contacts.points.size() <= most_few_points;
   naming_the_file(of_contacts, [&] { pack_links(numbers, contacts, head); });
   head["bolts"] = head["loads"] = head["supports"] = head["support_corners"] = 0;
-  const auto pack = [&](const std::vector<PvdFrame>& frames, auto function) {
-    if (frames.empty()) return;
-    const std::filesystem::path path = folder_ / frames[index].file;
-    const UnstructuredGrid grid = read_vtu(path);
-    naming_the_file(path, [&] { function(numbers, grid, head); });
-  };
-  pack(bolts_, pack_bolts);
-  pack(loads_, pack_loads_and_supports);
+  pack("bolts", pack_bolts);
+  pack("loads", pack_loads_and_supports);
   naming_the_file(of_contacts, [&] {
     if (kept) pack_points(numbers, contacts);
   });

@@ -11,7 +11,7 @@
 
 #include "apps/program/view/block_union.hpp"
 #include "apps/program/view/curved_cells.hpp"
-#include "apps/results/frames/pvd_writer.hpp"
+#include "apps/results/frames/stored_frames.hpp"
 
 namespace ashlar {
 
@@ -69,14 +69,12 @@ class ViewFrames {
   /// For versions without array "fixed": blocks of order 0, fixed or rigid, with the same places in all frames.
   [[nodiscard]] std::vector<std::int32_t> blocks_that_never_move() const;
 
-  std::filesystem::path folder_;
+  /// False, too, of a series that versions before did not write.
+  [[nodiscard]] bool written(const std::string& series) const;
+
   ViewPoints points_;
-  std::vector<PvdFrame> blocks_;
-  std::vector<PvdFrame> contacts_;
-  std::vector<PvdFrame> joints_;  ///< none: of a version that wrote no joints.pvd
-  std::vector<PvdFrame> bolts_;   ///< none: the run has no bolts
-  std::vector<PvdFrame>
-      loads_;  ///< none: the run has no loads and supports, or is of a version without the file
+  std::unique_ptr<const StoredFrames> stored_;
+  std::string blocks_ = "blocks";  ///< series with the surfaces of blocks
   std::size_t count_ = 0;
   BlockUnion all_blocks_;  ///< empty unless blocks are added or removed
   std::unique_ptr<const CurvedCells> curved_;

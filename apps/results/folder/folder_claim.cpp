@@ -35,6 +35,9 @@ constexpr std::array run_files = {"history.csv",
                                   "joints.pvd",
                                   "bolts.pvd",
                                   "surfaces.pvd",
+                                  "results.vtkhdf",
+                                  "results.vtkhdf.next",
+                                  "results.vtkhdf.old",
                                   "factor_trial.checkpoint",
                                   "factor_trial.checkpoint.tmp"};
 
@@ -63,7 +66,8 @@ bool looks_like_results(const std::filesystem::path& folder) {
   constexpr std::string_view history = "step,time,dt,";
   if (start_of(folder / "checkpoint", checkpoint.size()) == checkpoint) return true;
   return start_of(folder / "history.csv", history.size()) == history &&
-         std::filesystem::exists(status_of(folder / "blocks.pvd")) &&
+         (std::filesystem::exists(status_of(folder / "blocks.pvd")) ||
+          std::filesystem::exists(status_of(folder / "results.vtkhdf"))) &&
          std::filesystem::exists(status_of(folder / "contacts.csv"));
 }
 

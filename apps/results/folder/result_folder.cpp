@@ -2,14 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
-#include <set>
 #include <stdexcept>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "apps/results/frames/bolt_frames.hpp"
@@ -20,41 +15,26 @@
 namespace ashlar {
 namespace {
 
-/// "blocks_0000010.vtu" and the like, or an incomplete one of a killed run
-bool is_frame_name(std::string_view name) {
-  for (const std::string_view start : {"blocks_", "surfaces_", "contacts_", "joints_", "bolts_", "loads_"}) {
-    if (!name.starts_with(start)) continue;
-    const std::string_view rest = name.substr(start.size());
-    const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
-    return digits >= 7 && (rest.substr(digits) == ".vtu" || rest.substr(digits) == ".vtu.tmp");
-  }
-  return false;
-}
-
-void remove_frames_but(const std::filesystem::path& folder, const std::set<std::filesystem::path>& kept) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
-    if (entry.symlink_status().type() == std::filesystem::file_type::regular &&
-        is_frame_name(entry.path().filename().string()) && !kept.contains(entry.path()))
-      std::filesystem::remove(entry.path());
-  }
-}
-
 /// Results of an earlier run must not be mistaken for those of the new one. Its checkpoint is replaced by the first
 /// one of this run. Until then it cannot be used without its tables, so that these are removed before the frames that
 /// it relies on.
 std::filesystem::path emptied(std::filesystem::path folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder / "frames", error);
-  if (error) {
-    throw std::runtime_error(
-        fmt::format("cannot create the folder {}: {}", (folder / "frames").string(), error.message()));
-  }
+  std::filesystem::create_directories(folder);
   // Removed, not emptied: other names of these files keep their content.
-  for (const char* name :
-       {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd", "bolts.pvd", "loads.pvd"})
+  for (const char* name : {"history.csv", "contacts.csv", "summary.json", "view.html"})
     std::filesystem::remove(folder / name);
-  remove_frames_but(folder, {});
+  remove_frame_files(folder);
   return folder;
+}
+
+/// Names of the series that a run writes.
+std::vector<std::string> series_of(const Scene& scene, const Simulation& simulation) {
+  std::vector<std::string> series = {"blocks"};
+  if (scene.output.solid) series.emplace_back("surfaces");
+  series.insert(series.end(), {"contacts", "joints"});
+  if (!simulation.system().bolts().empty()) series.emplace_back("bolts");
+  if (has_loads_or_supports(scene)) series.emplace_back("loads");
+  return series;
 }
 
 constexpr const char* contact_columns =
@@ -86,23 +66,18 @@ DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Mea
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                            const StagePlace& place)
     : folder_(emptied(std::move(folder))),
-      frames_(folder_ / "frames"),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
       actions_(drawn_actions(scene, simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
-      blocks_(folder_ / "blocks.pvd"),
-      contacts_(folder_ / "contacts.pvd"),
-      joints_(folder_ / "joints.pvd"),
+      series_(series_of(scene, simulation)),
+      frames_(new_frame_files(folder_, output_.format, series_)),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
   progress_.stage = scene.stage.empty() ? 0 : place.stage;
   progress_.elapsed = place.elapsed;
   progress_.origin = place.origin;
-  if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd");
-  if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd");
-  if (has_loads_or_supports(scene)) loads_.emplace(folder_ / "loads.pvd");
   if (progress_.stage == 1 && scene.stage.front().reset_displacement)
     progress_.origin = origin_of(simulation, measures_, drawn_);
   contact_rows_.write(contact_columns);
@@ -112,7 +87,6 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                            const ResultFolderState& state)
     : folder_(std::move(folder)),
-      frames_(folder_ / "frames"),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
@@ -121,26 +95,16 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       history_(HistoryWriter::resume(folder_ / "history.csv",
                                      history_columns(measures_, !scene.stage.empty()),
                                      state.progress.last_row_step)),
-      blocks_(folder_ / "blocks.pvd", state.block_frames),
-      contacts_(folder_ / "contacts.pvd", state.contact_frames),
-      joints_(folder_ / "joints.pvd", state.joint_frames),
+      series_(series_of(scene, simulation)),
+      frames_(resumed_frame_files(folder_, output_.format, series_, state.frames)),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
       progress_(state.progress) {
-  if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd", state.surface_frames);
-  if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd", state.bolt_frames);
-  if (has_loads_or_supports(scene)) loads_.emplace(folder_ / "loads.pvd", state.load_frames);
   if (contact_rows_.size() < state.contact_bytes) {
     throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
                                          contact_rows_.path().string(), contact_rows_.size(),
                                          state.contact_bytes));
   }
   contact_rows_.truncate(state.contact_bytes);
-  std::set<std::filesystem::path> kept;
-  for (const auto* frames : {&state.block_frames, &state.surface_frames, &state.contact_frames,
-                             &state.joint_frames, &state.bolt_frames, &state.load_frames}) {
-    for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
-  }
-  remove_frames_but(folder_, kept);
   add_step(simulation);
 }
 
@@ -148,14 +112,7 @@ ResultFolderState ResultFolder::synced_state() {
   check_in_place();
   history_.sync();
   contact_rows_.sync();
-  return {.block_frames = blocks_.frames(),
-          .surface_frames = surfaces_ ? surfaces_->frames() : std::vector<PvdFrame>(),
-          .contact_frames = contacts_.frames(),
-          .joint_frames = joints_.frames(),
-          .bolt_frames = bolts_ ? bolts_->frames() : std::vector<PvdFrame>(),
-          .load_frames = loads_ ? loads_->frames() : std::vector<PvdFrame>(),
-          .contact_bytes = contact_rows_.size(),
-          .progress = progress_};
+  return {.frames = frames_->frames(), .contact_bytes = contact_rows_.size(), .progress = progress_};
 }
 
 void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement) {
@@ -168,7 +125,7 @@ void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, boo
 void ResultFolder::check_in_place() const {
   history_.check_in_place();
   contact_rows_.check_in_place();
-  frames_.check();
+  frames_->check_in_place();
 }
 
 void ResultFolder::add_step(const Simulation& simulation) {
@@ -201,45 +158,32 @@ void ResultFolder::add_row(const Simulation& simulation) {
 
 void ResultFolder::add_frame(const Simulation& simulation) {
   if (simulation.steps() == progress_.last_frame_step) return;
-  const auto file_of = [&](const char* series) {
-    return fmt::format("frames/{}_{:07}.vtu", series, simulation.steps());
-  };
   std::vector<std::string> names;
   for (const BlockModel& block : simulation.blocks()) names.push_back(block.name());
-  // Checked before each file, when all of its bytes are ready: detects a folder replaced by another one.
-  const auto write = [&](const std::string& name, UnstructuredGrid grid) {
-    grid.time = progress_.elapsed + simulation.time();
-    grid.block_names = names;
-    const std::string bytes = to_vtu(grid);
-    check_in_place();
-    write_file_atomically(folder_ / name, bytes, Durability::process);
-  };
-  std::vector<std::pair<PvdWriter*, std::string>> series;
-  const auto add = [&](PvdWriter& to, const char* name, UnstructuredGrid grid) {
-    write(series.emplace_back(&to, file_of(name)).second, std::move(grid));
-  };
   const std::vector<bool>& absent = simulation.system().absent();
   const auto shown = [&](const auto& frame, const auto& drawn) {
     return frame(simulation.blocks(), simulation.states(), drawn, output_.fields, absent, progress_.origin);
   };
-  if (surfaces_) add(blocks_, "blocks", shown(solid_frame, drawn_.solids));
-  add(surfaces_ ? *surfaces_ : blocks_, surfaces_ ? "surfaces" : "blocks",
-      shown(block_frame, drawn_.surfaces));
-  add(contacts_, "contacts", contact_frame(simulation));
-  add(joints_, "joints", joint_frame(simulation, joint_surfaces_));
-  if (bolts_) add(*bolts_, "bolts", bolt_frame(simulation));
-  if (loads_) add(*loads_, "loads", load_frame(simulation, actions_, progress_.stage));
-  // After a failure none of them remains.
-  std::vector<PvdWriter*> added;
+  std::vector<SeriesGrid> grids;
+  for (const std::string& series : series_) {
+    const auto grid = [&] {
+      if (series == "contacts") return contact_frame(simulation);
+      if (series == "joints") return joint_frame(simulation, joint_surfaces_);
+      if (series == "bolts") return bolt_frame(simulation);
+      if (series == "loads") return load_frame(simulation, actions_, progress_.stage);
+      if (series == "blocks" && output_.solid) return shown(solid_frame, drawn_.solids);
+      return shown(block_frame, drawn_.surfaces);
+    };
+    grids.push_back({series, grid()});
+  }
+  const std::uintmax_t rows = contact_rows_.size();
+  add_contact_rows(simulation);
   try {
-    for (const auto& [to, file] : series) {
-      check_in_place();
-      to->add_frame(progress_.elapsed + simulation.time(), file);
-      added.push_back(to);
-    }
-    add_contact_rows(simulation);
+    // Checked before each file, when all of its bytes are ready: detects a folder replaced by another one.
+    frames_->add({progress_.elapsed + simulation.time(), simulation.steps()}, std::move(grids), names,
+                 [this] { check_in_place(); });
   } catch (...) {
-    for (PvdWriter* to : added) to->drop_last();
+    contact_rows_.truncate(rows);
     throw;
   }
   progress_.last_frame_step = simulation.steps();

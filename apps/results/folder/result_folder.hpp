@@ -3,17 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/results/folder/folder_watch.hpp"
 #include "apps/results/frames/block_frames.hpp"
 #include "apps/results/frames/contact_frame.hpp"
+#include "apps/results/frames/frame_files.hpp"
 #include "apps/results/frames/joint_faces.hpp"
 #include "apps/results/frames/largest_values.hpp"
 #include "apps/results/frames/load_frames.hpp"
-#include "apps/results/frames/pvd_writer.hpp"
 #include "apps/results/frames/vtu_writer.hpp"
 #include "apps/results/tables/history_row.hpp"
 #include "apps/results/tables/history_writer.hpp"
@@ -47,18 +47,12 @@ struct ResultProgress {
 
 /// State of the files, stored in a checkpoint.
 struct ResultFolderState {
-  std::vector<PvdFrame> block_frames;
-  std::vector<PvdFrame> surface_frames;  ///< empty unless output.solid
-  std::vector<PvdFrame> contact_frames;
-  std::vector<PvdFrame> joint_frames;
-  std::vector<PvdFrame> bolt_frames;  ///< empty without bolts and props
-  std::vector<PvdFrame> load_frames;  ///< empty without loads and supports
-  std::uint64_t contact_bytes = 0;    ///< in contacts.csv
+  std::vector<FrameTime> frames;
+  std::uint64_t contact_bytes = 0;  ///< in contacts.csv
   ResultProgress progress;
 };
 
-/// Writes all results except the summary and the checkpoint; files of frames are in `frames/`. Errors are
-/// std::runtime_error with path and reason.
+/// Writes all results except the summary and the checkpoint. Errors are std::runtime_error with path and reason.
 class ResultFolder {
  public:
   /// Removes the results of an earlier run in the folder except for its checkpoint, which the first one of this run
@@ -92,7 +86,7 @@ class ResultFolder {
   [[nodiscard]] ResultFolderState synced_state();
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
-  [[nodiscard]] int frames() const { return static_cast<int>(blocks_.frames().size()); }
+  [[nodiscard]] int frames() const { return static_cast<int>(frames_->frames().size()); }
 
  private:
   [[nodiscard]] bool frame_is_due(const Simulation& simulation) const;
@@ -102,19 +96,14 @@ class ResultFolder {
   void add_contact_rows(const Simulation& simulation);
 
   std::filesystem::path folder_;
-  FolderWatch frames_;
   SceneOutput output_;
   std::vector<Measure> measures_;
   DrawnBlocks drawn_;
   std::vector<SubFaceSurface> joint_surfaces_;
   DrawnActions actions_;
   HistoryWriter history_;
-  PvdWriter blocks_;
-  std::optional<PvdWriter> surfaces_;  ///< if blocks_ has volumes: their surfaces, for the page
-  PvdWriter contacts_;
-  PvdWriter joints_;
-  std::optional<PvdWriter> bolts_;  ///< if the run has bolts or props
-  std::optional<PvdWriter> loads_;  ///< if the scene has loads or supports
+  std::vector<std::string> series_;  ///< of frames
+  std::unique_ptr<FrameFiles> frames_;
   OutputFile contact_rows_;
   ResultProgress progress_;
 };

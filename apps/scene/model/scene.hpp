@@ -110,12 +110,18 @@ struct SceneOutput {
     bool stress = true;
     bool principal_stress = false;
   };
+  /// Files of frames.
+  enum class Format {
+    vtu,     ///< a file for each frame and a .pvd file for each series
+    vtkhdf,  ///< results.vtkhdf, one file for all frames
+  };
   std::optional<int> every;        ///< steps between frames, >= 1; exactly one of every and interval is set
   std::optional<double> interval;  ///< s between frames, > 0
   int history_every = 1;           ///< steps between rows of the history, >= 1
   Fields fields;                   ///< by name in the array `fields`
   bool curved = false;             ///< blocks as Lagrange cells; not with formulation incremental
   bool solid = false;              ///< blocks as volumes; not with formulation incremental
+  Format format = Format::vtu;
 };
 
 /// The whole scene.

@@ -53,6 +53,9 @@ inline constexpr ChoiceNames<SceneCut::Spacing, 4> spacing_names = {
      {"uniform", SceneCut::Spacing::uniform},
      {"exponential", SceneCut::Spacing::exponential}}};
 
+inline constexpr ChoiceNames<SceneOutput::Format, 2> frame_format_names = {
+    {{"vtu", SceneOutput::Format::vtu}, {"vtkhdf", SceneOutput::Format::vtkhdf}}};
+
 inline constexpr ChoiceNames<SceneBolt::Anchorage, 2> anchorage_names = {
     {{"grouted", SceneBolt::Anchorage::grouted}, {"ends", SceneBolt::Anchorage::ends}}};
 

@@ -339,6 +339,7 @@ Json to_json(const SceneOutput& output) {
     if (output.fields.*member) json["fields"].push_back(name);
   json["curved"] = output.curved;
   json["solid"] = output.solid;
+  json["format"] = name_of(frame_format_names, output.format);
   return json;
 }
 

@@ -40,7 +40,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
        "load": [{"plane": {"point": [4.0, 0.0, 0.0], "normal": [1.0, 0.0, 0.0]}, "traction": [0.0, 0.0, -1e5]}]}],
     "measure": [{"name": "tip", "block": "B", "point": [4.0, 0.5, 0.5]}],
     "output": {"every": 5, "history_every": 1, "fields": ["displacement", "velocity", "stress"], "curved": false,
-               "solid": false}
+               "solid": false, "format": "vtu"}
   })"));
 }
 
@@ -60,7 +60,8 @@ TEST(SceneJson, HoldsWhatIsNotDefault) {
             nlohmann::json::parse(R"({"blocks": ["A", "B*"], "shear_stiffness": "auto", "tied": true})"));
   EXPECT_EQ(json["output"],
             nlohmann::json::parse(
-                R"({"interval": 0.5, "history_every": 1, "fields": [], "curved": true, "solid": false})"));
+                R"({"interval": 0.5, "history_every": 1, "fields": [], "curved": true, "solid": false,
+                    "format": "vtu"})"));
   EXPECT_EQ(json["block"][0]["sphere"],
             nlohmann::json::parse(R"({"center": [0.0, 0.0, 0.0], "radius": 1.0, "subdivisions": 3})"));
   EXPECT_EQ(json["block"][0]["rotate"],
