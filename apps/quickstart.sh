@@ -7,7 +7,7 @@ cd "$root"
 
 # Packages that only tests and checks need are half of the download.
 tests_only='^clang|vtk|^chromium|^furo|^doxygen|^jupyter|^mypy|^pkg-config'
-tests_only+='|^python3-(breathe|cvxopt|ipykernel|jsonschema|matplotlib|meshio|myst-parser|pip|pytest|setuptools|sphinx|venv|wheel)'
+tests_only+='|^python3-(breathe|cvxopt|h5py|ipykernel|jsonschema|matplotlib|meshio|myst-parser|pip|pytest|setuptools|sphinx|venv|wheel)'
 bash apps/install_packages.sh --except "$tests_only"
 cmake --preset release
 cmake --build --preset release --target ashlar ashlar_python -j"$(bash apps/build_jobs.sh)"

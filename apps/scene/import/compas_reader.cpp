@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -309,8 +310,8 @@ void assume_compas_friction(ImportedModel& model) {
 }
 
 ImportedModel read_compas(std::string_view text) {
-  const nlohmann::json tree = parse_json_file(text, "a model of COMPAS");
-  return CompasReader().read(JsonNode(tree, ""));
+  auto tree = std::make_shared<const nlohmann::json>(parse_json_file(text, "a model of COMPAS"));
+  return CompasReader().read(JsonNode(std::move(tree), ""));
 }
 
 }  // namespace ashlar

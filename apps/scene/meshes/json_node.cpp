@@ -101,7 +101,8 @@ std::vector<std::pair<std::string, JsonNode>> JsonNode::members() const {
   if (!value_->is_object()) fail("is no object", "{...}");
   std::vector<std::pair<std::string, JsonNode>> members;
   for (const auto& [name, value] : value_->items())
-    members.emplace_back(name, JsonNode(value, path_.empty() ? name : fmt::format("{}.{}", path_, name)));
+    members.emplace_back(name,
+                         JsonNode(part(value), path_.empty() ? name : fmt::format("{}.{}", path_, name)));
   const auto is_number = [](const std::string& name) {
     return !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
   };

@@ -16,7 +16,7 @@
 #include "unit/apps/results/frames/hdf5_contents.hpp"
 #include "unit/apps/run_fixture.hpp"
 
-namespace ashlar {
+namespace ashlar::vtkhdf_run_test {
 namespace {
 
 using ::testing::Contains;
@@ -179,4 +179,4 @@ TEST_F(VtkhdfRun, AWrongFormatIsToldWithTheAllowedOnes) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::vtkhdf_run_test

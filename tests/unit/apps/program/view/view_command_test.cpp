@@ -218,8 +218,8 @@ TEST_F(ViewCommand, FaultsNameTheFile) {
   EXPECT_EQ(run({"view", (folder / "none").string()}), exit_status::bad_input);
   EXPECT_THAT(err.str(), AllOf(HasSubstr("error: no result folder ("), HasSubstr("/none does not exist), ")));
   EXPECT_EQ(run({"view", folder.path().string()}), exit_status::bad_input);
-  EXPECT_THAT(err.str(),
-              HasSubstr("error: no results in " + folder.path().string() + " (blocks.pvd does not exist), "));
+  EXPECT_THAT(err.str(), HasSubstr("error: no results in " + folder.path().string() +
+                                   " (neither blocks.pvd nor results.vtkhdf exists), "));
   simulate();
   EXPECT_EQ(run({"view", (folder / "glide.toml").string()}), exit_status::bad_input);
   EXPECT_THAT(err.str(), HasSubstr("glide.toml is a file), "));

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.hpp"
 #include "unit/apps/results/frames/hdf5_contents.hpp"
 
-namespace ashlar {
+namespace ashlar::vtkhdf_file_test {
 namespace {
 
 using testing::AllOf;
@@ -272,4 +272,4 @@ TEST_F(VtkhdfFile, GoingOnWithAFileRemovesLaterFramesAndTracesOfAKilledRun) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::vtkhdf_file_test
