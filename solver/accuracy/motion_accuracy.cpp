@@ -60,9 +60,21 @@ std::optional<TriedStep> tried(Simulation& simulation, double step, int count, d
   return end;
 }
 
-/// Difference of two ends, relative.
-double difference(const Simulation& simulation, const MotionScales& scales, const TriedStep& a,
-                  const TriedStep& b) {
+/// Difference of two ends in the goals and their rates, relative.
+double difference_of_goals(const MotionScales& scales, const TriedStep& a, const TriedStep& b) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.goals.size(); ++k) {
+    const double scale = std::max(scales.goals[k], a.goals[k].least);
+    double sum = scale > 0.0 ? goal_distance(a.goals[k].values, b.goals[k].values) / scale : 0.0;
+    if (scales.rates[k] > 0.0) sum += goal_distance(a.goals[k].rates, b.goals[k].rates) / scales.rates[k];
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+/// Difference of two ends in energy and displacement, relative.
+double difference_of_blocks(const Simulation& simulation, const MotionScales& scales, const TriedStep& a,
+                            const TriedStep& b) {
   double energy = 0.0, displacement = 0.0;
   for (std::size_t k = 0; k < a.states.size(); ++k) {
     if (!simulation.system().moving()[k]) continue;
@@ -77,14 +89,8 @@ double difference(const Simulation& simulation, const MotionScales& scales, cons
     }
     displacement = std::max(displacement, mean_length(block, position));
   }
-  double largest = scales.energy > 0.0 ? std::sqrt(energy / scales.energy) : 0.0;
-  if (a.goals.empty() && scales.displacement > 0.0)
-    largest = std::max(largest, displacement / scales.displacement);
-  for (std::size_t k = 0; k < a.goals.size(); ++k) {
-    const double scale = std::max(scales.goals[k], a.goals[k].least);
-    if (scale > 0.0) largest = std::max(largest, goal_distance(a.goals[k].values, b.goals[k].values) / scale);
-  }
-  return largest;
+  const double of_energy = scales.energy > 0.0 ? std::sqrt(energy / scales.energy) : 0.0;
+  return scales.displacement > 0.0 ? std::max(of_energy, displacement / scales.displacement) : of_energy;
 }
 
 int order_of(Integrator integrator) {
@@ -123,7 +129,10 @@ class StepTests {
     const auto whole = tried(simulation_, step, 1, request_.end_time, goals_);
     const auto halves = tried(simulation_, 0.5 * step, 2, request_.end_time, goals_);
     if (!whole || !halves || whole->marks != halves->marks || whole->marks != marks_) return std::nullopt;
-    return difference(simulation_, state_.scales, *whole, *halves) * power_ / (power_ - 1.0);
+    const double difference = whole->goals.empty()
+                                  ? difference_of_blocks(simulation_, state_.scales, *whole, *halves)
+                                  : difference_of_goals(state_.scales, *whole, *halves);
+    return difference * power_ / (power_ - 1.0);
   }
 
   [[nodiscard]] double allowed(double step) const { return request_.accuracy * step / request_.end_time; }
@@ -143,7 +152,7 @@ class StepTests {
       shorter *= 0.5;
       left = *next;
     }
-    // What shorter steps do not reduce is the tolerance of contact and rounding, which do not add up.
+    // The tolerance of contact and rounding, which shorter steps do not reduce, do not add up.
     constexpr double reduced = 0.5;
     if (shorter < step && left > reduced * error) {
       state_.noise = std::max(state_.noise, error);
@@ -195,9 +204,11 @@ std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const
     run.scales.energy = std::max(run.scales.energy, sum);
     const std::vector<Goal> values = goals(simulation);
     run.scales.goals.resize(values.size(), 0.0);
+    run.scales.rates.resize(values.size(), 0.0);
     run.round.goals.resize(values.size());
     for (std::size_t k = 0; k < values.size(); ++k) {
       run.scales.goals[k] = std::max(run.scales.goals[k], goal_length(values[k].values));
+      run.scales.rates[k] = std::max(run.scales.rates[k], goal_length(values[k].rates));
       run.round.goals[k].resize(values[k].values.size(), 0.0);
       for (std::size_t n = 0; n < values[k].values.size(); ++n)
         run.round.goals[k][n] = std::max(run.round.goals[k][n], std::abs(values[k].values[n]));

@@ -1,6 +1,7 @@
 // Time steps and orders of blocks chosen for an accuracy, in a motion.
 //
-// Errors are relative to the largest energy and displacements of the motion. A pilot, a run of few steps whose state is
+// Errors are relative to the largest values of the goals and of their rates, so that an error of velocity counts with the
+// time in which it moves the goal; without goals to the largest energy and displacements of the motion. A pilot, a run of few steps whose state is
 // taken back, measures them, and what the orders of blocks lack at any time: it is a round of static_accuracy.hpp, and
 // repeated with higher orders until they suffice. Then, every few steps and after each change of contacts, one step is taken whole and in two
 // halves. With an integrator of order p the local error of the whole step is their difference times 2^p / (2^p - 1)
@@ -32,6 +33,7 @@ struct MotionScales {
   double energy = 0.0;        ///< J, kinetic and of strain, of all blocks
   double displacement = 0.0;  ///< m, root of the mean square over a block, of the block that moves most
   std::vector<double> goals;  ///< largest length of each goal's values
+  std::vector<double> rates;  ///< largest length of each goal's rates
 };
 
 /// State of the choice, for checkpoints.

@@ -75,10 +75,10 @@ bool is_whole(const AccuracyRound& round) {
 }
 
 /// Error of a goal by the orders of blocks. If all blocks are estimated, it is not larger than the error in the norm of
-/// the energy.
+/// the energy; after two rounds nothing else is known, as the second may have changed nothing by chance.
 double order_error_of(const std::vector<AccuracyRound>& rounds, std::size_t index, const Goal& goal) {
   const double in_norm = is_whole(rounds.back()) ? std::sqrt(error_of_energy(rounds.back())) : no_estimate;
-  return rounds.size() > 1 ? std::min(in_norm, relative_to(distance_to_limit(rounds, index), goal)) : in_norm;
+  return rounds.size() > 2 ? std::min(in_norm, relative_to(distance_to_limit(rounds, index), goal)) : in_norm;
 }
 
 /// Sub-faces: errors of gaps are proportional to the chord tolerance, which a round divides by this.
@@ -101,23 +101,37 @@ double sub_face_error_of_energy(const AccuracyRounds& rounds) {
   return change > 0.0 ? change / std::max(now, change) : 0.0;
 }
 
+/// True if the order of a block is to be chosen, and a higher one is allowed.
+bool can_rise(const Simulation& simulation, const AccuracyRequest& request, const AccuracyRounds& rounds,
+              int index) {
+  const BlockModel& block = simulation.blocks()[at(index)];
+  return request.orders[at(index)] && simulation.system().moving()[at(index)] &&
+         can_have_order(block, block.order() + 1) &&
+         std::find(rounds.highest.begin(), rounds.highest.end(), index) == rounds.highest.end();
+}
+
 /// Choice of the orders of the next round.
 class OrderChoice {
  public:
   OrderChoice(const Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
               const AccuracyRounds& rounds)
-      : simulation_(simulation), request_(request), rounds_(rounds), last_(rounds.orders.back()) {
+      : simulation_(simulation),
+        request_(request),
+        rounds_(rounds),
+        last_(rounds.orders.back()),
+        has_goals_(!goals.empty()) {
     int deformable = 0;
     for (std::size_t k = 0; k < request.orders.size(); ++k) {
       const BlockModel& block = simulation.blocks()[k];
       if (simulation.system().moving()[k] && !block.rigid()) ++deformable;
-      if (can_rise(static_cast<int>(k))) raisable_.push_back(static_cast<int>(k));
+      if (can_rise(simulation, request, rounds, static_cast<int>(k)))
+        raisable_.push_back(static_cast<int>(k));
     }
     mean_energy_ = sum_of(last_.energies) / std::max(deformable, 1);
     for (std::size_t k = 0; k < goals.size(); ++k)
       goals_met_ = goals_met_ && order_error_of(rounds.orders, k, goals[k]) <= request.accuracy;
     for (const int block : raisable_) all_estimated_ = all_estimated_ && last_.lacks[at(block)] >= 0.0;
-    if (!all_estimated_) goals_met_ = goals_met_ && energy_is_still();
+    if (!all_estimated_ && !has_goals_) goals_met_ = energy_is_still();
   }
 
   /// Blocks that get the next order; empty: orders suffice, or cannot be raised.
@@ -129,21 +143,16 @@ class OrderChoice {
     std::vector<int> chosen;
     for (const int block : raisable_) {
       const double lack = last_.lacks[at(block)];
-      const bool lacks_much = lack > request_.accuracy * std::max(last_.energies[at(block)], mean_energy_) ||
-                              (!goals_met_ && (lack < 0.0 || (lack > 0.0 && lack >= of_largest * largest)));
+      const bool lacks_much =
+          has_goals_ || lack < 0.0
+              ? !goals_met_ && (lack < 0.0 || (lack > 0.0 && lack >= of_largest * largest))
+              : lack > request_.accuracy * std::max(last_.energies[at(block)], mean_energy_);
       if (lacks_much) chosen.push_back(block);
     }
     return chosen;
   }
 
  private:
-  [[nodiscard]] bool can_rise(int index) const {
-    const BlockModel& block = simulation_.blocks()[at(index)];
-    return request_.orders[at(index)] && simulation_.system().moving()[at(index)] &&
-           can_have_order(block, block.order() + 1) &&
-           std::find(rounds_.highest.begin(), rounds_.highest.end(), index) == rounds_.highest.end();
-  }
-
   /// True if two more orders have hardly changed the energy: one may change nothing, as an even function has no odd part.
   [[nodiscard]] bool energy_is_still() const {
     const std::vector<AccuracyRound>& all = rounds_.orders;
@@ -160,6 +169,7 @@ class OrderChoice {
   const AccuracyRound& last_;
   std::vector<int> raisable_;
   double mean_energy_ = 0.0;  ///< J, of the blocks that deform
+  bool has_goals_;
   bool goals_met_ = true;
   bool all_estimated_ = true;
 };
@@ -174,6 +184,14 @@ bool raise(Simulation& simulation, const std::vector<int>& blocks, AccuracyRound
       rounds.highest.push_back(block);
   }
   return raised;
+}
+
+/// Contacts of blocks with very different orders may alternate for ever.
+bool raise_all(Simulation& simulation, const AccuracyRequest& request, AccuracyRounds& rounds) {
+  std::vector<int> blocks;
+  for (int block = 0; block < static_cast<int>(request.orders.size()); ++block)
+    if (can_rise(simulation, request, rounds, block)) blocks.push_back(block);
+  return raise(simulation, blocks, rounds);
 }
 
 /// True if a curved face is in contact.
@@ -239,8 +257,10 @@ StaticStatus find_equilibrium(Simulation& simulation, double end_time, const Acc
       if (!goes_on()) return status;
       status = simulation.static_step(end_time);
     }
-    if (status != StaticStatus::equilibrium || !refine(simulation, request, goals(simulation), rounds))
-      return status;
+    const bool goes = status == StaticStatus::equilibrium
+                          ? refine(simulation, request, goals(simulation), rounds)
+                          : status == StaticStatus::not_converged && raise_all(simulation, request, rounds);
+    if (!goes) return status;
   }
 }
 

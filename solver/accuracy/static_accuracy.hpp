@@ -1,8 +1,8 @@
 // Orders of blocks and sub-faces chosen for an accuracy, in a static analysis.
 //
 // The analysis finds an equilibrium with the present orders: a round. Then, in this order,
-// - blocks whose order lacks more energy (order_error.hpp) than the accuracy allows get the next order, and so do the
-//   blocks with the largest lacks while a goal still changes by more than its accuracy;
+// - while a goal still changes by more than its accuracy, the blocks whose orders lack the most energy (order_error.hpp)
+//   get the next order; without goals, those that lack more than the accuracy allows;
 // - once orders suffice, the chord tolerance of curved faces is divided by four until goals change by no more;
 // and the analysis goes on from there, with its contacts and their memory: another round. Errors are estimated from
 // the changes d of goals over two rounds: with the ratio q of two of them, those that are left add up to d q / (1 - q). The energy that a block lacks is the square of its error in the norm of the energy; an error of a
@@ -26,6 +26,8 @@ struct Goal {
   std::vector<double> values;
   /// >= 0, in the same unit: errors are relative to the length of `values`, or to this if it is larger
   double least = 0.0;
+  /// Their rates in a motion, for time steps; empty: they have none
+  std::vector<double> rates = {};
 };
 
 struct AccuracyRequest {
@@ -75,7 +77,8 @@ struct AccuracyEstimate {
 /// Values of the goals at present, always the same ones; may be empty.
 using GoalValues = std::function<std::vector<Goal>(const Simulation&)>;
 
-/// Equilibria, each refine()d, until the accuracy is reached or an analysis finds none.
+/// Equilibria, each refine()d, until the accuracy is reached or an analysis finds none. Where an analysis does not
+/// converge, all blocks get the next order.
 /// @param rounds empty. @param goes_on called before each iteration: false ends it
 /// @return status of the last analysis, balancing if it was ended
 [[nodiscard]] StaticStatus find_equilibrium(Simulation& simulation, double end_time,

@@ -134,6 +134,13 @@ void BlockSystem::replace(int block, BlockModel model) {
   blocks_[at(block)] = std::move(model);
   note_gradients(at(block));
   roundoff_force_[at(block)] = blocks_[at(block)].force_rounding();
+  // Ties have as many columns as their blocks have functions.
+  for (TiedBlocks& tied : ties_) {
+    if (tied.a != block && tied.b != block) continue;
+    const BlockModel& a = blocks_[at(tied.a)];
+    const BlockModel& b = blocks_[at(tied.b)];
+    tied.tie = std::make_shared<const Tie>(tie_between(a.solid(), a.basis(), b.solid(), b.basis()));
+  }
 }
 
 void BlockSystem::carry_on(int block, BlockModel model) {

@@ -166,7 +166,7 @@ HeldBlock lying_wedge(double half, double rise, double length) {
           {{0, 0}, {depth, -half}, {-0.5, -half}, {-0.5, 0}}};
 }
 
-/// What a search for a factor found: the middle of its bracket, or the limit of
+/// Result of a search for a factor: the middle of its bracket, or the limit of
 /// the search that nothing reaches.
 double factor_of(const LimitBracket& bracket) {
   if (bracket.lower && bracket.upper) return std::sqrt(*bracket.lower * *bracket.upper);

@@ -53,6 +53,13 @@ std::vector<double> values_of(const Simulation& simulation, const Measure& measu
   return {};
 }
 
+/// Velocity of the measured point; empty for others.
+std::vector<double> rates_of(const Simulation& simulation, const Measure& measure) {
+  if (measure.kind != Measure::Kind::point && measure.kind != Measure::Kind::block) return {};
+  const Vector3 velocity = measured_motion(simulation, measure).velocity;
+  return {velocity.x(), velocity.y(), velocity.z()};
+}
+
 }  // namespace
 
 std::vector<Goal> goals_of(const Simulation& simulation, const std::vector<Measure>& measures) {
@@ -62,9 +69,11 @@ std::vector<Goal> goals_of(const Simulation& simulation, const std::vector<Measu
   const double force = as_good_as_zero * sum_of_forces(simulation);
   for (const Measure& measure : measures) {
     const bool is_force = measure.kind == Measure::Kind::pair || measure.kind == Measure::Kind::bolt;
-    Goal goal{measure.name, values_of(simulation, measure), is_force ? force : length};
-    for (double& value : goal.values)
-      if (std::isnan(value)) value = 0.0;
+    Goal goal{measure.name, values_of(simulation, measure), is_force ? force : length,
+              rates_of(simulation, measure)};
+    for (std::vector<double>* values : {&goal.values, &goal.rates})
+      for (double& value : *values)
+        if (std::isnan(value)) value = 0.0;
     goals.push_back(std::move(goal));
   }
   return goals;

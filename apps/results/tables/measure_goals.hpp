@@ -8,7 +8,7 @@
 
 namespace ashlar {
 
-/// A goal for each measure with a value: the displacement of a point or block and the drift, m; the normal and shear
+/// A goal for each measure with a value: the displacement of a point or block, with its velocity, and the drift, m; the normal and shear
 /// force of a pair, or the axial and shear force of a bolt, N; the largest opening and slip of cracks, m. Lengths count
 /// from 1e-6 of the largest displacement of a block on, forces from 1e-6 of the sum of contact forces: below, they are
 /// as good as zero.

@@ -40,7 +40,8 @@ Simulation swelling(Integrator integrator, double time_step) {
 }
 
 std::vector<Goal> swell(const Simulation& simulation) {
-  return {{"corner", {place_of(simulation, 0, {0.5, 0.5, 0.5}).x() - 0.5}}};
+  const PointMotion corner = simulation.blocks()[0].motion_of(simulation.states()[0], {0.5, 0.5, 0.5});
+  return {{"corner", {corner.displacement.x()}, 0.0, {corner.velocity.x()}}};
 }
 
 /// @return the steps taken

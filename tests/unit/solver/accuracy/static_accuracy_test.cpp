@@ -80,6 +80,27 @@ TEST(StaticAccuracy, CanBeEnded) {
   EXPECT_TRUE(rounds.orders.empty());
 }
 
+// Two halves of the bar, tied: blocks with ties are not estimated. The top sinks by rho g h^2 / 2E.
+TEST(StaticAccuracy, RaisesTheOrdersOfTiedBlocks) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-1, -1, -1}, {2, 2, 0}));
+  blocks.emplace_back(block_of("low", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), bar, 1));
+  blocks.emplace_back(block_of("high", Polyhedron(make_box({0, 0, 1}, {1, 1, 2})), bar, 1));
+  Simulation simulation(std::move(blocks), {{}, {}, {}}, same_law({1e11, 1e11, 0.5, 0.0, 0.0, true}),
+                        SimulationSettings{}, {{1, 2, 1e13}});
+  const Vector3 top(0.5, 0.5, 2.0);
+  const GoalValues goal = [&](const Simulation& now) {
+    return std::vector<Goal>{{"top", {place_of(now, 2, top).z() - 2.0}}};
+  };
+  AccuracyRounds rounds;
+  ASSERT_EQ(find_equilibrium(simulation, 1.0, {1e-3, {false, true, true}}, goal, rounds, always),
+            StaticStatus::equilibrium);
+  EXPECT_GE(simulation.blocks()[1].order(), 2);
+  EXPECT_GE(simulation.blocks()[2].order(), 2);
+  EXPECT_NEAR(goal(simulation)[0].values[0] / (-2500.0 * 9.81 * 4.0 / 2.0 / 1e7), 1.0, 1e-3);
+  EXPECT_LE(accuracy_estimate(goal(simulation), rounds).order, 1e-3);
+}
+
 /// Rounds with these values of one goal. @param lacks of the only block, whose energy is 1 J
 std::vector<AccuracyRound> rounds_of(const std::vector<double>& values, double lacks) {
   std::vector<AccuracyRound> rounds;

@@ -27,7 +27,8 @@ TEST(Diagnostics, PrintsInFileOrderWithArgumentsLast) {
 }
 
 TEST(Diagnostics, PrintsEachFaultInOneLine) {
-  const Diagnostic fault{{"s.toml", 1, 2}, "wrong (a\nb\tc)"};
+  const Place place{"s.toml", 1, 2};
+  const Diagnostic fault{place, "wrong (a\nb\tc)"};
   EXPECT_EQ(to_string(fault), "s.toml:1:2: error: wrong (a b c)");
 }
 
