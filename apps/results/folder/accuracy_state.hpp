@@ -1,12 +1,9 @@
-// Choices for analysis.accuracy and their estimated errors, for checkpoints and the summary.
+// Choices for analysis.accuracy and their estimated errors, for checkpoints and the summary (error_summary.hpp).
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
-#include "apps/scene/model/scene.hpp"
 #include "solver/accuracy/motion_accuracy.hpp"
 
 namespace ashlar {
@@ -24,14 +21,5 @@ struct AccuracyState {
   /// Sum of all, relative.
   [[nodiscard]] double estimate() const;
 };
-
-/// `error` of summary.json: accuracy, estimate, by { order, sub_faces, step }, measures, orders { order: blocks },
-/// advice.
-[[nodiscard]] nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& simulation,
-                                                      const AccuracyState& state);
-
-/// How to come closer to the accuracy; empty: it is met.
-[[nodiscard]] std::string accuracy_advice(const Scene& scene, const Simulation& simulation,
-                                          const AccuracyState& state);
 
 }  // namespace ashlar

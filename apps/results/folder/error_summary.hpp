@@ -1,4 +1,4 @@
-// `error` of summary.json: estimated error of the orders of blocks at the end of a run.
+// `error` of summary.json: estimated error of the orders of blocks at the end of a run, or that of a run with an accuracy.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/results/folder/accuracy_state.hpp"
+#include "apps/scene/model/scene.hpp"
 #include "solver/run/order_error.hpp"
 
 namespace ashlar {
@@ -22,5 +24,14 @@ inline constexpr double ordinary_order_error = 0.1;
 /// of order 1 are chosen for their motion, not for their stress.
 [[nodiscard]] std::optional<OrderError> coarse_block(const Simulation& simulation,
                                                      const std::vector<OrderError>& errors);
+
+/// `error` of summary.json: accuracy, estimate, by { order, sub_faces, step }, measures, orders { order: blocks },
+/// advice.
+[[nodiscard]] nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& simulation,
+                                                      const AccuracyState& state);
+
+/// How to come closer to the accuracy; empty: it is met.
+[[nodiscard]] std::string accuracy_advice(const Scene& scene, const Simulation& simulation,
+                                          const AccuracyState& state);
 
 }  // namespace ashlar

@@ -92,10 +92,10 @@ TEST(CommandLine, CheckListsEveryFaultAndWritesNothing) {
   EXPECT_EQ(outcome.status, exit_status::bad_input);
   EXPECT_EQ(outcome.err,
             file + ":10:11: error: density is out of range (-1), a number > 0 is needed\n" +
-                "--set block.A.order=-1: error: order is out of range (-1), a whole number from 0 to 12 is "
-                "needed\n" +
-                "--set block.B.order=13: error: order is out of range (13), a whole number from 0 to 12 is "
-                "needed\n");
+                "--set block.A.order=-1: error: order is out of range (-1), a whole number from 0 to 12 or "
+                "\"auto\" is needed\n" +
+                "--set block.B.order=13: error: order is out of range (13), a whole number from 0 to 12 or "
+                "\"auto\" is needed\n");
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(folder.entry_count(), 1u);
 }
