@@ -112,7 +112,7 @@ void complete_times(TomlTableReader& table, SceneAnalysis& analysis, bool loads_
     if (analysis.accuracy && !is_static(analysis) && !(analysis.time_step > 0.0)) {
       analysis.automatic_step = true;
       analysis.time_step = analysis.end_time / automatic_steps;
-    } else if (!(analysis.time_step > 0.0)) {
+    } else if (!(analysis.time_step > 0.0) && !analysis.automatic_step) {
       table.require("time_step");
     }
     return;

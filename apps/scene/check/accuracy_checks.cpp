@@ -26,6 +26,10 @@ void check_accuracy(const Scene& scene, Diagnostics& diagnostics) {
   const SceneAnalysis& analysis = scene.analysis;
   if (!analysis.accuracy) {
     check_orders(scene, diagnostics);
+    if (analysis.automatic_step)
+      diagnostics.error(
+          scene.places.value("analysis.time_step"),
+          "time_step = \"auto\" without analysis.accuracy, a number > 0, or an accuracy, is needed");
     return;
   }
   const auto refuse = [&](const std::string& message) {

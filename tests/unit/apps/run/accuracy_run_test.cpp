@@ -63,7 +63,8 @@ TEST(AccuracyRun, AStaticRunHasTheChosenOrder) {
   EXPECT_EQ(error["accuracy"], 1e-3);
   EXPECT_LE(error["estimate"], 1e-3);
   EXPECT_EQ(error["estimate"], error["measures"]["middle"]);
-  EXPECT_EQ(error["orders"]["2"], 1);
+  EXPECT_EQ(error["orders"].size(), 1U) << "of the pier alone";
+  EXPECT_GE(run.simulation().blocks()[1].order(), 2);
   EXPECT_EQ(error["advice"], "");
   EXPECT_FALSE(error["by"].contains("step"));
 }

@@ -163,7 +163,9 @@ TEST_F(VtkhdfRun, AFileThatWasReplacedEndsTheRun) {
   ASSERT_GE(child, 0);
   if (child == 0) ::_exit(run_in_one_file("out", {"--set", "analysis.end_time=1000"}));
   for (int k = 0; k < 60000 && !std::filesystem::exists(folder_ / "out/summary.json"); ++k) {
-    if (std::filesystem::exists(file("out"))) std::filesystem::remove(file("out"));
+    const bool begun =
+        std::filesystem::exists(folder_ / "out/history.csv") && lines("out/history.csv").size() > 20;
+    if (begun && std::filesystem::exists(file("out"))) std::filesystem::remove(file("out"));
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   int status = 0;

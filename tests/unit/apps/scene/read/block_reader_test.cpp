@@ -23,7 +23,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         FaultCase{14, "", "s.toml:13:1: error: missing key (name), block needs it"},
         FaultCase{15, "material = \"rock\"\norder = -1",
-                  "s.toml:16:9: error: order is out of range (-1), a whole number from 0 to 12 is needed"},
+                  "s.toml:16:9: error: order is out of range (-1), a whole number from 0 to 12 or \"auto\" "
+                  "is needed"},
         FaultCase{15, "material = \"rock\"\norder = 99", "s.toml:16:9: error: order is out of range (99)"},
         FaultCase{15, "material = \"rock\"\norder = 3.0",
                   "s.toml:16:9: error: order has the wrong type (3.0)"},

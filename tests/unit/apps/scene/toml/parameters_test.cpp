@@ -51,9 +51,11 @@ TEST(Parameters, FaultsAreAtTheCharacter) {
   EXPECT_THAT(reading_faults(sample_with(3, "time_step = \"= 1/(2 - 2)\"")),
               ElementsAre("s.toml:3:14: error: time_step (\"= 1/(2 - 2)\"): formula divides by zero, another "
                           "divisor is needed"));
-  EXPECT_THAT(reading_faults(sample_with(3, "time_step = \"= 1 - 2\"")),
-              ElementsAre("s.toml:3:13: error: time_step is out of range (\"= 1 - 2\" = -1), a number > 0 is "
-                          "needed"));
+  EXPECT_THAT(
+      reading_faults(sample_with(3, "time_step = \"= 1 - 2\"")),
+      ElementsAre(
+          "s.toml:3:13: error: time_step is out of range (\"= 1 - 2\" = -1), a number > 0 or \"auto\" is "
+          "needed"));
   EXPECT_THAT(
       reading_faults(sample_with(31, "every = \"= 5/2\"")),
       ElementsAre("s.toml:31:9: error: every is no whole number (\"= 5/2\" = 2.5), a whole number of at "
