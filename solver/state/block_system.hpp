@@ -30,7 +30,7 @@ struct TiedBlocks {
   int a;
   int b;
   std::shared_ptr<const Tie> tie;  ///< not null
-  double stiffness;  ///< Pa/m
+  double stiffness;                ///< Pa/m
 };
 
 /// Blocks by their numbers, ties and joint laws.

@@ -28,14 +28,14 @@ enum class IslandStatus {
 struct BodyStep {
   const BlockModel* model = nullptr;
   const BlockState* state = nullptr;  ///< at the start of the step
-  Eigen::VectorXd free_change;     ///< change without forces, see time_scheme.hpp
-  Eigen::VectorXd external_force;  ///< evaluated where the integrator requires it
-  double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
-  Eigen::VectorXd change;          ///< D, the result
-  double largest_force = 0.0;      ///< norm of the largest force that acts on it
-  double residual = 0.0;           ///< norm of its residual, N; 0: within its tolerance
-  ElasticResponse elastic;         ///< evaluated where the integrator requires it
-  Eigen::MatrixX3d prescribed;     ///< displacement of moving supports, (p, 3); empty: none
+  Eigen::VectorXd free_change;        ///< change without forces, see time_scheme.hpp
+  Eigen::VectorXd external_force;     ///< evaluated where the integrator requires it
+  double roundoff_force = 0.0;        ///< size of the rounding errors of the internal force
+  Eigen::VectorXd change;             ///< D, the result
+  double largest_force = 0.0;         ///< norm of the largest force that acts on it
+  double residual = 0.0;              ///< norm of its residual, N; 0: within its tolerance
+  ElasticResponse elastic;            ///< evaluated where the integrator requires it
+  Eigen::MatrixX3d prescribed;        ///< displacement of moving supports, (p, 3); empty: none
   /// For damping by stiffness: elastic force at the start of the step in the frame that turns with the block, (p, 3)
   Eigen::MatrixX3d start_force;
 

@@ -28,7 +28,9 @@ ContactPair pair_of(int a, int b) {
 }
 
 ContactPair tie_of(int a, int b, const Tie& tie) {
-  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}}, std::make_shared<const Tie>(tie), 1.0};
+  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}},
+          std::make_shared<const Tie>(tie),
+          1.0};
 }
 
 TEST(Island, IsASetOfMovingBlocksThatTouch) {

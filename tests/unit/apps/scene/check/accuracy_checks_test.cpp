@@ -82,7 +82,7 @@ TEST(AccuracyChecks, WithoutAccuracyNothingIsAutomatic) {
               ElementsAre(StartsWith("s.toml:7:9: error: order = \"auto\" without analysis.accuracy")));
   EXPECT_THAT(faults_of(scene_of("end_time = 2")), ElementsAre(HasSubstr("missing key (time_step)")));
   EXPECT_THAT(faults_of(scene_of("end_time = 2, time_step = \"auto\"")),
-              ElementsAre(StartsWith("s.toml:1:41: error: time_step = \"auto\" without analysis.accuracy")));
+              ElementsAre(StartsWith("s.toml:1:40: error: time_step = \"auto\" without analysis.accuracy")));
 }
 
 TEST(AccuracyChecks, AValueIsANumberOrAuto) {
