@@ -1,6 +1,7 @@
 #include "apps/run/accuracy_choice.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "apps/results/tables/measure_goals.hpp"
 #include "apps/run/run_setup.hpp"
@@ -83,28 +84,18 @@ bool choose_in_motion(const LoadedScene& loaded, int threads, const std::functio
   }
 }
 
-/// Shortest time between two rows of a history that increases, s; infinite without histories.
-class ShortestGap {
- public:
-  void add(double before, double after) { gap_ = std::min(gap_, after - before); }
-  template <class Rows>
-  void add_rows(const Rows& rows) {
-    for (std::size_t k = 1; k < rows.size(); ++k) add(rows[k - 1].time, rows[k].time);
-  }
-  [[nodiscard]] double seconds() const { return gap_; }
-
- private:
-  double gap_ = std::numeric_limits<double>::infinity();
-};
-
+/// Shortest time between two rows of a history, s; infinite without histories.
 double shortest_gap(const Scene& scene) {
-  ShortestGap gap;
-  gap.add_rows(scene.analysis.gravity_history);
+  double gap = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](const auto& rows) {
+    for (std::size_t k = 1; k < rows.size(); ++k) gap = std::min(gap, rows[k].time - rows[k - 1].time);
+  };
+  look_at(scene.analysis.gravity_history);
   for (const SceneBlock& block : scene.block) {
-    for (const SceneLoad& load : block.load) gap.add_rows(load.history);
-    for (const SceneFix& fix : block.fix) gap.add_rows(fix.history);
+    for (const SceneLoad& load : block.load) look_at(load.history);
+    for (const SceneFix& fix : block.fix) look_at(fix.history);
   }
-  return gap.seconds();
+  return gap;
 }
 
 }  // namespace

@@ -7,10 +7,8 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "apps/results/folder/accuracy_state.hpp"
 #include "apps/scene/build/build_simulation.hpp"

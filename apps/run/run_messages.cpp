@@ -78,6 +78,7 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
 void warn_of_order(const Run& run, std::ostream& err) {
   const Simulation& simulation = run.simulation();
   if (run.accuracy() != nullptr) {
+    if (run.status() != RunStatus::equilibrium && run.status() != RunStatus::completed) return;
     if (const std::string advice = accuracy_advice(run.whole(), simulation, *run.accuracy()); !advice.empty())
       err << fmt::format(
           "ashlar: warning: the estimated error is {:.2g}, more than the accuracy of {:.2g}: {}\n",

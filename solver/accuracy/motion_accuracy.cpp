@@ -152,9 +152,9 @@ class StepTests {
       shorter *= 0.5;
       left = *next;
     }
-    // The tolerance of contact and rounding, which shorter steps do not reduce, do not add up.
-    constexpr double reduced = 0.5;
-    if (shorter < step && left > reduced * error) {
+    // An error that falls no faster than the step never comes below its share: the tolerance of contact and rounding,
+    // which do not add up.
+    if (shorter < step && left * step >= error * shorter) {
       state_.noise = std::max(state_.noise, error);
       state_.local_error = 0.0;
     } else if (shorter < step) {

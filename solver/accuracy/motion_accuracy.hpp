@@ -10,7 +10,7 @@
 // until they do, and doubled where twice the step would have less. The tests are taken back: a run with a chosen step is
 // the same as one with the same steps given.
 //
-// An error that four halvings do not reduce by half is the tolerance of contact or rounding: the step stays as it is.
+// An error that in four halvings falls no faster than the step is the tolerance of contact or rounding: the step stays.
 // A step in which contacts change is of first order with any integrator and tells nothing about its neighbours: it is
 // not used. Such steps are counted, and the largest distance that a block moved in one of them is the error of the
 // place of an impact.
@@ -43,7 +43,7 @@ struct MotionAccuracyState {
   int since_test = 0;              ///< steps
   double local_error = 0.0;        ///< of a step of the present length, relative, from the last test
   double error = 0.0;              ///< sum of the local errors of all steps, relative
-  double noise = 0.0;              ///< largest error that shorter steps did not reduce, relative
+  double noise = 0.0;              ///< largest error that fell no faster than the step, relative
   double impact_error = 0.0;       ///< largest distance moved in a step in which contacts changed, relative
   std::int64_t impacts = 0;        ///< steps in which contacts changed
   std::int64_t tests = 0;          ///< steps tried whole and in halves

@@ -266,7 +266,11 @@ StaticStatus find_equilibrium(Simulation& simulation, double end_time, const Acc
 
 AccuracyEstimate accuracy_estimate(const std::vector<Goal>& goals, const AccuracyRounds& rounds) {
   AccuracyEstimate estimate;
-  if (rounds.orders.empty()) return estimate;
+  if (rounds.orders.empty()) {
+    estimate.order = no_estimate;
+    estimate.goals.assign(goals.size(), no_estimate);
+    return estimate;
+  }
   for (std::size_t k = 0; k < goals.size(); ++k) {
     const double order = order_error_of(rounds.orders, k, goals[k]);
     const double sub_faces = sub_face_error_of(rounds, k, goals[k]);

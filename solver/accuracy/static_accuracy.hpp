@@ -4,10 +4,11 @@
 // - while a goal still changes by more than its accuracy, the blocks whose orders lack the most energy (order_error.hpp)
 //   get the next order; without goals, those that lack more than the accuracy allows;
 // - once orders suffice, the chord tolerance of curved faces is divided by four until goals change by no more;
-// and the analysis goes on from there, with its contacts and their memory: another round. Errors are estimated from
-// the changes d of goals over two rounds: with the ratio q of two of them, those that are left add up to d q / (1 - q). The energy that a block lacks is the square of its error in the norm of the energy; an error of a
-// displacement is a product of two such norms (R. Becker and R. Rannacher, Acta Numerica 10 (2001) 1), so that it is
-// of the size of that square.
+// and the analysis goes on from there, with its contacts and their memory: another round. Errors are estimated from the
+// changes d of goals over two rounds: with the ratio q of two of them, those that are left add up to d q / (1 - q).
+// The energy that a block lacks is the square of its error in the norm of the energy; an error of a displacement is a
+// product of two such norms (R. Becker and R. Rannacher, Acta Numerica 10 (2001) 1), so that it is of the size of that
+// square.
 //
 // Notes: notes/accuracy.md.
 #pragma once
@@ -39,7 +40,7 @@ struct AccuracyRequest {
 /// An equilibrium, or the largest values of a motion, with given orders and sub-faces.
 struct AccuracyRound {
   std::vector<std::vector<double>> goals;  ///< values
-  std::vector<double> energies;            ///< strain energy by block, J
+  std::vector<double> energies;            ///< by block, J: of strain, in a motion with that of motion
   std::vector<double> lacks;               ///< J by block, as OrderError; negative: not estimated
 };
 
@@ -85,7 +86,7 @@ using GoalValues = std::function<std::vector<Goal>(const Simulation&)>;
                                             const AccuracyRequest& request, const GoalValues& goals,
                                             AccuracyRounds& rounds, const std::function<bool()>& goes_on);
 
-/// At the end of the last round. @param goals as given to refine()
+/// At the end of the last round; infinite without any. @param goals as given to refine()
 [[nodiscard]] AccuracyEstimate accuracy_estimate(const std::vector<Goal>& goals,
                                                  const AccuracyRounds& rounds);
 

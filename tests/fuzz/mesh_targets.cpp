@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/refusal.hpp"
 #include "fuzz/targets.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
 #include "geometry/mesh/mesh_formats.hpp"
@@ -19,9 +20,7 @@ bool mesh(PolygonSoup (*read)(std::string_view), std::string_view bytes) {
       for (const double coordinate : point) require(!is_too_far(coordinate), "coordinates are in range");
     return true;
   } catch (const MeshFileError& error) {
-    require(error.line() >= 0 && error.column() >= 0, "places are not negative");
-    require(error.what()[0] != '\0', "a refusal has a reason");
-    return false;
+    return refused(error);
   }
 }
 

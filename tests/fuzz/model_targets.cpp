@@ -2,6 +2,7 @@
 #include "apps/scene/import/model_scene.hpp"
 #include "apps/scene/import/poly_reader.hpp"
 #include "apps/scene/import/unblocks_reader.hpp"
+#include "fuzz/refusal.hpp"
 #include "fuzz/targets.hpp"
 #include "geometry/mesh/mesh_io.hpp"
 
@@ -30,9 +31,7 @@ bool model(ImportedModel (*read)(std::string_view), std::string_view bytes) {
             "a model is written");
     return true;
   } catch (const MeshFileError& error) {
-    require(error.line() >= 0 && error.column() >= 0, "places are not negative");
-    require(error.what()[0] != '\0', "a refusal has a reason");
-    return false;
+    return refused(error);
   }
 }
 

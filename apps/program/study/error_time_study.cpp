@@ -301,9 +301,11 @@ std::vector<std::string> compare_chosen(StudyResult& result) {
       if (other[of_accuracy] == 0.0 && other[of_problem] == row[of_problem] && other[of_error] <= asked)
         fastest = std::min(fastest, other[of_seconds]);
     const std::string& curve = result.plot.series[static_cast<std::size_t>(row[of_curve]) - 1].name;
-    sentences.push_back(
-        fmt::format("{}: asked {:.0e}, error {:.1e}, told {:.1e}, {:.2g} times the fastest given choice",
-                    curve, asked, row[of_error], row[of_estimate], row[of_seconds] / fastest));
+    const std::string cost = std::isfinite(fastest) ? fmt::format("{:.2g} times the fastest given choice",
+                                                                  row[of_seconds] / fastest)
+                                                    : "no given choice has it";
+    sentences.push_back(fmt::format("{}: asked {:.0e}, error {:.1e}, told {:.1e}, {}", curve, asked,
+                                    row[of_error], row[of_estimate], cost));
     constexpr double most = 3.0;
     result.holds = result.holds && row[of_error] <= most * std::max(asked, row[of_estimate]);
   }

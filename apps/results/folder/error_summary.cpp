@@ -55,24 +55,20 @@ std::string accuracy_advice(const Scene& scene, const Simulation& simulation, co
   if (!(state.estimate() > *scene.analysis.accuracy)) return {};
   const double by_step = state.motion.error + state.motion.noise;
   if (by_step > state.order_error && by_step > state.sub_face_error)
-    return "the motion has impacts or vibrations that no larger step resolves: a larger accuracy, or a given "
-           "time_step, is needed";
-  if (state.sub_face_error > state.order_error)
-    return "contact of curved faces needs more sub-faces than are chosen: a smaller contact.chord_tolerance "
-           "is "
+    return "steps do not resolve its impacts or vibrations: a larger accuracy, or a given time_step, is "
            "needed";
+  if (state.sub_face_error > state.order_error)
+    return "curved faces in contact need more sub-faces: a smaller contact.chord_tolerance is needed";
   if (state.slow_block >= 0) {
     const BlockModel& block = simulation.blocks()[at(state.slow_block)];
     return fmt::format(
-        "a higher order of block {} (now {}) helps little: its stress is concentrated at {}; several tied "
+        "a higher order of block {} (now {}) helps little, its stress is concentrated at {}: several tied "
         "blocks, "
-        "small ones there, are needed in its place",
+        "small ones there, are needed",
         block.name(), block.order(),
         block.supported() ? "its supports or at a corner" : "a corner or a small contact");
   }
-  return "blocks whose order is given, or which have their highest order, limit it: higher orders, or "
-         "smaller tied "
-         "blocks, are needed";
+  return "given or highest orders of blocks limit it: higher orders, or smaller tied blocks, are needed";
 }
 
 nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& simulation,

@@ -78,7 +78,7 @@ TEST(AccuracyRun, AGivenOrderStaysAndIsNamed) {
   const auto error = error_of(run);
   // In the norm of the energy, of which order 1 lacks a quarter.
   EXPECT_NEAR(error["estimate"], 0.5, 0.01);
-  EXPECT_THAT(std::string(error["advice"]), HasSubstr("blocks whose order is given"));
+  EXPECT_THAT(std::string(error["advice"]), HasSubstr("given or highest orders"));
 }
 
 /// A bar of 2 m that is held at its top and let go, nu = 0. With uniform strain its foot moves by

@@ -96,7 +96,6 @@ TEST(MotionAccuracy, AMeasureIsAGoal) {
 TEST(MotionAccuracy, TestsLeaveNoTrace) {
   const double end = 4.0 * std::numbers::pi / frequency;
   Simulation chosen = swelling(Integrator::average_acceleration, end / 64);
-  const std::string before = to_bytes(chosen.snapshot());
   const auto pilot = pilot_run(chosen, end, no_goals, always);
   ASSERT_TRUE(pilot);
   EXPECT_EQ(chosen.time(), 0.0);

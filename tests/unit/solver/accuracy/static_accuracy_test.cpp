@@ -71,6 +71,51 @@ TEST(StaticAccuracy, KeepsGivenOrdersAndSaysWhatTheyMiss) {
   EXPECT_NEAR(accuracy_estimate({}, rounds).order, 0.25, 1e-2);
 }
 
+TEST(StaticAccuracy, WithoutARoundNothingIsKnown) {
+  const AccuracyEstimate estimate = accuracy_estimate({{"goal", {1.0}}}, {});
+  EXPECT_TRUE(std::isinf(estimate.order));
+  ASSERT_EQ(estimate.goals.size(), 1U);
+  EXPECT_TRUE(std::isinf(estimate.goals[0]));
+}
+
+/// A ball of order 3 and 1 m that lies on a base.
+Simulation ball(double chord_tolerance) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-2, -2, -1}, {2, 2, 0}));
+  BlockDefinition block = block_of("ball", Polyhedron(make_sphere({0, 0, 1}, 1.0, 1)), {2500, 1e6, 0.3}, 3);
+  block.supports.push_back({Vector3(0, 0, 1), {true, true, false}});
+  blocks.emplace_back(std::move(block));
+  SimulationSettings settings;
+  settings.search.chord_tolerance = chord_tolerance;
+  return {std::move(blocks), {{}, {}}, same_law({1e9, 1e9, 0.0, 0.0, 0.0, true}), settings};
+}
+
+// The chord tolerance becomes a quarter at least once, and the run on the coarse sub-faces differs as was estimated.
+TEST(StaticAccuracy, DividesCurvedFacesInContact) {
+  constexpr double coarse = 0.05;
+  Simulation simulation = ball(coarse);
+  const GoalValues sinking = [](const Simulation& now) {
+    return std::vector<Goal>{{"middle", {place_of(now, 1, {0, 0, 1}).z() - 1.0}}};
+  };
+  AccuracyRounds rounds;
+  ASSERT_EQ(find_equilibrium(simulation, 1.0, {1e-2, {false, false}, true}, sinking, rounds, always),
+            StaticStatus::equilibrium);
+  ASSERT_FALSE(rounds.sub_faces.empty());
+  EXPECT_EQ(rounds.orders.size(), 1U);
+  EXPECT_EQ(simulation.system().settings().search.chord_tolerance,
+            coarse * std::pow(0.25, static_cast<double>(rounds.sub_faces.size())));
+  EXPECT_LE(accuracy_estimate(sinking(simulation), rounds).sub_faces, 1e-2);
+  Simulation fine = ball(simulation.system().settings().search.chord_tolerance / 16.0);
+  ASSERT_EQ(run_static(fine, 1.0), StaticStatus::equilibrium);
+  EXPECT_NEAR(sinking(simulation)[0].values[0] / sinking(fine)[0].values[0], 1.0, 1e-2);
+}
+
+TEST(StaticAccuracy, ChordAndStepAreAboveZero) {
+  Simulation simulation = standing(1);
+  EXPECT_THROW(simulation.set_chord_tolerance(0.0), std::invalid_argument);
+  EXPECT_THROW(simulation.set_time_step(-1.0), std::invalid_argument);
+}
+
 TEST(StaticAccuracy, CanBeEnded) {
   Simulation simulation = standing(1);
   AccuracyRounds rounds;

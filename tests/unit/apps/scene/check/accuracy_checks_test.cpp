@@ -105,7 +105,16 @@ TEST(AccuracyChecks, SomeAnalysesHaveNone) {
       ElementsAre(HasSubstr("accuracy of the incremental formulation")));
 }
 
-TEST(AccuracyChecks, JsonIsReadAgain) {
+// Ground beyond a boundary is computed beforehand, with the step.
+TEST(AccuracyChecks, BoundariesNeedAGivenStep) {
+  const std::string boundary =
+      "[[boundary]]\nplane = { point = [0, 0, 0], normal = [0, 0, -1] }\nkind = \"quiet\"\n";
+  EXPECT_THAT(faults_of(scene_of("end_time = 1, accuracy = 0.1", "", boundary)),
+              ElementsAre(HasSubstr("boundary beside an automatic time_step")));
+  EXPECT_THAT(faults_of(scene_of("end_time = 1, time_step = 0.1, accuracy = 0.1", "", boundary)), IsEmpty());
+}
+
+TEST(AccuracyChecks, JsonSaysWhatIsAutomatic) {
   const std::string text = scene_of("end_time = 2, accuracy = 1e-2");
   const auto json = to_json(read(text));
   EXPECT_EQ(json["analysis"]["accuracy"], 1e-2);

@@ -1,0 +1,69 @@
+#include "apps/results/folder/error_summary.hpp"
+
+#include <gmock/gmock.h>
+
+#include "support/simulations.hpp"
+
+namespace ashlar::error_summary_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class AccuracySummary : public ::testing::Test {
+ protected:
+  AccuracySummary() {
+    scene_.analysis.accuracy = 0.01;
+    scene_.measure.resize(2);
+    scene_.measure[0].name = "first";
+    scene_.measure[1].name = "second";
+  }
+
+  static Simulation of_a_box() {
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(test_support::fixed_box({-1, -1, -1}, {2, 2, 0}));
+    blocks.emplace_back(
+        test_support::block_of("box", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500, 1e9, 0.2}, 3));
+    return {std::move(blocks), {{}, {}}, test_support::same_law({1e9, 1e9, 0.5}), SimulationSettings{}};
+  }
+
+  [[nodiscard]] std::string advice() const { return accuracy_advice(scene_, simulation_, state_); }
+
+  Scene scene_;
+  AccuracyState state_;
+  Simulation simulation_ = of_a_box();
+};
+
+TEST_F(AccuracySummary, TheLargestMeasureAndTheStepsAddUp) {
+  scene_.analysis.automatic_step = true;
+  state_.order_error = 0.002;
+  state_.goals = {0.001, 0.002};
+  state_.motion.error = 0.003;
+  state_.motion.noise = 0.0005;
+  state_.rounds = 4;
+  const auto json = accuracy_summary(scene_, simulation_, state_);
+  EXPECT_NEAR(json["estimate"], 0.0055, 1e-15);
+  EXPECT_NEAR(json["by"]["step"], 0.0035, 1e-15);
+  EXPECT_NEAR(json["measures"]["first"], 0.0045, 1e-15);
+  EXPECT_EQ(json["orders"], (nlohmann::ordered_json{{"3", 1}})) << "the base does not move";
+  EXPECT_EQ(json["analyses"], 4);
+  EXPECT_EQ(json["advice"], "");
+}
+
+TEST_F(AccuracySummary, AdviceIsAboutTheLargestPart) {
+  state_.order_error = 0.005;
+  state_.goals = {0.005, 0.0};
+  EXPECT_THAT(advice(), IsEmpty());
+  state_.order_error = state_.goals[0] = 0.02;
+  EXPECT_THAT(advice(), HasSubstr("given or highest orders"));
+  state_.slow_block = 1;
+  EXPECT_THAT(advice(), HasSubstr("a higher order of block box (now 3) helps little"));
+  state_.sub_face_error = 0.03;
+  state_.goals[0] = 0.05;
+  EXPECT_THAT(advice(), HasSubstr("contact.chord_tolerance"));
+  state_.motion.error = 0.1;
+  EXPECT_THAT(advice(), HasSubstr("time_step"));
+}
+
+}  // namespace
+}  // namespace ashlar::error_summary_test
