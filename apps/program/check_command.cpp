@@ -11,10 +11,9 @@
 
 #include "apps/program/run/override_option.hpp"
 #include "apps/results/text/json_text.hpp"
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/run/run_setup.hpp"
 #include "apps/scene/build/scene_loading.hpp"
 #include "apps/scene/check/base_motion.hpp"
-#include "apps/scene/check/loose_blocks.hpp"
 
 namespace ashlar {
 namespace {
@@ -83,9 +82,7 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
     Preparation preparation(false, err);
     loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
     if (loaded) first = loaded->scene.stage.empty() ? &*loaded : &staged.emplace(stage_of(*loaded, 0));
-    if (first != nullptr) built = build_simulation(*first, 1, diagnostics, &preparation);
-    if (built && is_static(first->scene.analysis))
-      refuse_loose_blocks(first->scene, built->simulation, diagnostics);
+    if (first != nullptr) built = build_first_stage(*first, 1, diagnostics, &preparation);
   }
   if (options.json) {
     out << json_text(report_json(diagnostics, loaded), 2) << '\n';

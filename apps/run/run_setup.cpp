@@ -1,14 +1,30 @@
 #include "apps/run/run_setup.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <utility>
 
+#include "apps/results/tables/group_measure.hpp"
 #include "apps/run/limit_run.hpp"
 #include "apps/run/movement_run.hpp"
 #include "apps/scene/check/loose_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 
 namespace ashlar {
+namespace {
+
+/// A crack is measured on faces that touch as placed, in any stage.
+void refuse_idle_cracks(const Scene& scene, const std::vector<BlockModel>& blocks, Diagnostics& diagnostics) {
+  for (std::size_t k = 0; k < scene.measure.size(); ++k) {
+    const std::optional<SceneCrack>& crack = scene.measure[k].crack;
+    if (crack && joint_polygons(scene, *crack, blocks).polygons.empty())
+      diagnostics.error(scene.places.key(fmt::format("measure.{}.crack", k)),
+                        "no faces of these blocks touch (0 joints), at least one joint is needed");
+  }
+}
+
+}  // namespace
 
 std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const LoadedScene>& whole,
                                                std::size_t stage) {
@@ -25,6 +41,7 @@ std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int t
   const std::optional<RigidModel> model = limit_model(scene, built->simulation);
   refuse_idle_limits(scene, model, diagnostics);
   refuse_movements(scene, model, diagnostics);
+  refuse_idle_cracks(scene, built->simulation.blocks(), diagnostics);
   return built;
 }
 

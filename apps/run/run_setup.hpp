@@ -13,8 +13,8 @@ namespace ashlar {
 [[nodiscard]] std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const LoadedScene>& whole,
                                                              std::size_t stage);
 
-/// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, and searches
-/// with nothing to find.
+/// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, searches
+/// with nothing to find, and cracks without joints.
 /// @param first of stage_scene(). @param threads >= 1
 /// @return empty if a block cannot be built
 [[nodiscard]] std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int threads,

@@ -110,6 +110,8 @@ TEST_F(LimitRun, ScenesWithNothingToFindAreRefused) {
   write_text(scene_, keystone("type = \"factor-of-safety\"", "friction_angle = 10"));
   EXPECT_EQ(run("fixed", {"--set", "block.stone.fixed=true"}), 2);
   EXPECT_THAT(faults_, HasSubstr("no block can move"));
+  EXPECT_EQ(command({"check", scene_.string(), "--set", "block.stone.fixed=true"}), 2);
+  EXPECT_THAT(faults_, HasSubstr("no block can move"));
   EXPECT_EQ(run("unloaded", {"--set", "analysis.type=capacity"}), 2);
   EXPECT_THAT(faults_, HasSubstr("names no load"));
 }

@@ -76,6 +76,15 @@ TEST_F(CheckJson, WarningsLeaveASceneGood) {
   EXPECT_EQ(json["faults"][0]["severity"], "warning");
 }
 
+TEST_F(CheckJson, ACrackIsBetweenFacesThatTouch) {
+  const std::string crack = "[[measure]]\nname = \"bed\"\ncrack = { joints = [\"A\"], to = [\"B\"] }\n";
+  write_text(scene_, scene_text + crack);
+  EXPECT_EQ(checked(0)["good"], true);
+  const Json apart = checked(2, {"--set", "block.A.box.min=[3, -0.25, 0.6]"});
+  ASSERT_EQ(apart["faults"].size(), 1U);
+  EXPECT_THAT(apart["faults"][0]["message"].get<std::string>(), HasSubstr("no faces of these blocks touch"));
+}
+
 TEST_F(CheckJson, AFileThatIsNotThereIsAFaultToo) {
   std::filesystem::remove(scene_);
   const Json json = checked(2);
