@@ -1,11 +1,12 @@
 // operator new of the program: mimalloc's memory, and std::bad_alloc on failure. Debian builds mimalloc as C, whose
 // operator new then calls abort(). Only the program may link this file: a process has one operator new.
 #include <mimalloc.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <new>
 #include <string_view>
+
+#include "apps/results/system/this_process.hpp"
 
 namespace {
 
@@ -25,8 +26,8 @@ void refuse_to_start_without_memory() {
   void* place = mi_malloc(1);
   if (place == nullptr) {
     constexpr std::string_view message = "ashlar: error: out of memory before the program has begun\n";
-    (void)!::write(STDERR_FILENO, message.data(), message.size());
-    ::_exit(1);
+    ashlar::write_to_errors(message);
+    ashlar::end_at_once(1);
   }
   mi_free(place);
 }

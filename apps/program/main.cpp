@@ -1,27 +1,15 @@
 // The program `ashlar`; see command_line.hpp.
-#include <fcntl.h>
-
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "apps/program/command_line.hpp"
 #include "apps/program/program_memory.hpp"
-
-namespace {
-
-/// If the caller has closed a standard stream, its number would be reused for the first opened file, and messages
-/// would be written into it.
-void open_closed_streams() {
-  for (const int stream : {0, 1, 2})
-    if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", O_RDWR);
-}
-
-}  // namespace
+#include "apps/results/system/this_process.hpp"
 
 int main(int count, char** arguments) {
   ashlar::prepare_for_missing_memory();
-  open_closed_streams();
+  ashlar::open_closed_streams();
   return ashlar::run_command_line(std::vector<std::string>(arguments + 1, arguments + count), std::cout,
                                   std::cerr);
 }

@@ -1,7 +1,6 @@
 #include "apps/program/program_memory.hpp"
 
 #include <gmp.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstdlib>
@@ -10,6 +9,7 @@
 #include <string_view>
 
 #include "apps/program/command_line.hpp"
+#include "apps/results/system/this_process.hpp"
 
 // When loaded, OpenBLAS reads the number of threads from its environment; each allocates address space at once. It is
 // used with one thread, and this replacement of its function prevents others.
@@ -44,8 +44,8 @@ bool is_for_memory() {
   }
   constexpr std::string_view message =
       "ashlar: error: out of memory; a run keeps the last state that it saved\n";
-  (void)!::write(STDERR_FILENO, message.data(), message.size());
-  ::_exit(exit_status::failed);
+  write_to_errors(message);
+  end_at_once(exit_status::failed);
 }
 
 // GMP calls abort() without memory; an exception is the only alternative.

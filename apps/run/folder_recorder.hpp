@@ -7,8 +7,8 @@
 
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/folder/result_folder.hpp"
+#include "apps/results/system/space_reserve.hpp"
 #include "apps/run/run_observer.hpp"
-#include "apps/run/space_reserve.hpp"
 
 namespace ashlar {
 

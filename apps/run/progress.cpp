@@ -1,7 +1,6 @@
 #include "apps/run/progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +9,8 @@
 #include <iostream>
 #include <string_view>
 #include <utility>
+
+#include "apps/results/system/this_process.hpp"
 
 namespace ashlar {
 namespace {
@@ -37,7 +38,7 @@ ProgressMode choose_progress_mode(bool quiet) {
   if (quiet) return ProgressMode::silent;
   const char* terminal = std::getenv("TERM");
   const bool dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
-  return ::isatty(STDERR_FILENO) == 1 && !dumb ? ProgressMode::live : ProgressMode::plain;
+  return errors_go_to_a_terminal() && !dumb ? ProgressMode::live : ProgressMode::plain;
 }
 
 std::string format_progress(const ProgressState& state, double end_time, std::optional<double> seconds_left) {

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "geometry/exact/coordinate_limit.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -86,7 +87,7 @@ void TextScanner::expect_end_of_line() {
 double TextScanner::number(std::string_view what) {
   const std::string_view digits = without_plus(require_word(what));
   double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [end, error] = parse_number(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range) fail(what, "must be in the range of double precision");
   if (error != std::errc() || end != digits.data() + digits.size()) fail(what, "must be a number");
   return value;

@@ -3,11 +3,11 @@
 // in BLAS, when exactly the existing buffers are free.
 #include "solver/linear/blas_memory.hpp"
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <mutex>
 #include <vector>
+
+#include "solver/system/address_space.hpp"
 
 // Exported by OpenBLAS; null with another implementation.
 extern "C" void* blas_memory_alloc(int position) __attribute__((weak));
@@ -32,19 +32,11 @@ Threads& threads() {
   return all;
 }
 
-/// True if the system can provide one more buffer.
-bool has_room() {
-  void* place = mmap(nullptr, asked_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (place == MAP_FAILED) return false;
-  munmap(place, asked_bytes);
-  return true;
-}
-
 /// Makes OpenBLAS map one more buffer. @throws BlasMemoryError
 void map_one_more(std::size_t mapped) {
   std::vector<void*> buffers;
   buffers.reserve(mapped + 1);
-  if (!has_room()) throw BlasMemoryError();
+  if (!has_room_for(asked_bytes)) throw BlasMemoryError();
   while (buffers.size() <= mapped) buffers.push_back(blas_memory_alloc(0));
   for (void* buffer : buffers) blas_memory_free(buffer);
 }

@@ -1,8 +1,6 @@
 #include "apps/program/plot/plot_script.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "apps/program/view/child_program.hpp"
 #include "apps/results/folder/scratch_folder.hpp"
+#include "apps/results/system/child_program.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/toml/fault_text.hpp"
@@ -109,7 +107,7 @@ std::vector<std::string> interpreters() {
   std::vector<std::string> found;
   if (const auto first = find_program("python3")) found.push_back(first->string());
   constexpr const char* of_system = "/usr/bin/python3";
-  if (::access(of_system, X_OK) == 0) found.emplace_back(of_system);
+  if (is_executable(of_system)) found.emplace_back(of_system);
   return found;
 }
 
@@ -120,7 +118,7 @@ std::string failure_of(const std::vector<std::string>& command) {
   const std::filesystem::path errors = scratch.path() / "errors";
   const std::optional<int> status = run_program(command, scratch.path() / "out", errors, limit);
   if (!status) return fmt::format("did not finish within {} s", limit.count());
-  if (WIFEXITED(*status) && WEXITSTATUS(*status) == 0) return {};
+  if (*status == 0) return {};
   std::string text = whole_file(errors);
   while (text.ends_with('\n')) text.pop_back();
   const std::string last = text.substr(text.rfind('\n') + 1);

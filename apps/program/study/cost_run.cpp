@@ -1,17 +1,14 @@
 #include "apps/program/study/cost_run.hpp"
 
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <exception>
+#include <cstring>
+#include <string>
 #include <type_traits>
 #include <utility>
 
-#include "apps/program/study/processor_time.hpp"
+#include "apps/results/system/process_copy.hpp"
+#include "apps/results/system/this_process.hpp"
 #include "apps/scene/build/build_simulation.hpp"
 
 namespace ashlar {
@@ -19,10 +16,8 @@ namespace {
 
 /// Most memory that this process has taken so far, MiB.
 double most_memory() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  constexpr double kibibytes = 1024.0;
-  return static_cast<double>(used.ru_maxrss) / kibibytes;
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  return static_cast<double>(peak_memory_bytes()) / mebibyte;
 }
 
 std::optional<RunCost> cost_here(const MakeSimulation& make, int skipped, int steps) {
@@ -66,28 +61,15 @@ MakeSimulation scene_of_text(const std::string& text, int threads) {
 
 std::optional<RunCost> cost_of_run(const MakeSimulation& make, int skipped, int steps) {
   static_assert(std::is_trivially_copyable_v<RunCost>);
-  constexpr auto bytes = static_cast<ssize_t>(sizeof(RunCost));
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return std::nullopt;
-  const pid_t child = fork();
-  if (child == 0) {
-    close(ends[0]);
-    bool told = false;
-    try {
-      if (const std::optional<RunCost> cost = cost_here(make, skipped, steps))
-        told = write(ends[1], &*cost, sizeof(RunCost)) == bytes;
-    } catch (const std::exception&) {
-      told = false;
-    }
-    _exit(told ? 0 : 1);
-  }
-  close(ends[1]);
+  const std::optional<std::string> bytes = told_by_copy([&]() -> std::optional<std::string> {
+    const std::optional<RunCost> cost = cost_here(make, skipped, steps);
+    if (!cost) return std::nullopt;
+    return std::string(reinterpret_cast<const char*>(&*cost), sizeof(RunCost));
+  });
+  if (!bytes || bytes->size() != sizeof(RunCost)) return std::nullopt;
   RunCost cost;
-  const bool read_all = child > 0 && read(ends[0], &cost, sizeof(RunCost)) == bytes;
-  close(ends[0]);
-  int status = 0;
-  if (child > 0) waitpid(child, &status, 0);
-  return read_all ? std::optional(cost) : std::nullopt;
+  std::memcpy(&cost, bytes->data(), sizeof(RunCost));
+  return cost;
 }
 
 }  // namespace ashlar

@@ -11,8 +11,8 @@
 
 #include "apps/program/study/cost_run.hpp"
 #include "apps/program/study/cost_scenes.hpp"
-#include "apps/program/study/processor_time.hpp"
 #include "apps/program/verify/falling_block.hpp"
+#include "apps/results/system/this_process.hpp"
 
 namespace ashlar {
 namespace {

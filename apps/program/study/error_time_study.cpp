@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "apps/program/study/orders_study.hpp"
-#include "apps/program/study/processor_time.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
+#include "apps/results/system/this_process.hpp"
 #include "apps/scene/model/scene_analysis.hpp"
 #include "solver/accuracy/motion_accuracy.hpp"
 #include "solver/run/checkpoint.hpp"

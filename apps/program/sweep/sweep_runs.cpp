@@ -2,31 +2,26 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "apps/program/command_line.hpp"
 #include "apps/results/folder/identity_json.hpp"
+#include "apps/results/system/interrupt_guard.hpp"
+#include "apps/results/system/process_copy.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/results/text/output_stream.hpp"
-#include "apps/run/interrupt_guard.hpp"
 #include "apps/run/stored_run.hpp"
 #include "apps/run/trial_folder.hpp"
 #include "apps/scene/build/scene_loading.hpp"
@@ -123,17 +118,6 @@ int logged_variant(const RunOptions& run, std::ostream& log) {
   return exit_status::failed;
 }
 
-/// The process ends with the status of the run.
-[[noreturn]] void run_in_child(const RunOptions& run, OutputFile log_file) {
-  // The sweep passes on a signal to the terminal's group: once.
-  (void)setpgid(0, 0);
-  // A killed sweep leaves no run behind.
-  (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
-  OutputStreamBuffer buffer(std::move(log_file));
-  std::ostream log(&buffer);
-  _exit(logged_variant(run, log));
-}
-
 /// Reason from a log for replacing results; empty: they were kept, or there were none.
 std::string reason_in(const std::filesystem::path& log) {
   std::ifstream stream(log);
@@ -179,24 +163,25 @@ class Runs {
       note(run, exit_status::bad_input);
       return;
     }
-    const pid_t child = fork();
-    if (child < 0) {
-      const int reason = errno;
+    try {
+      children_.emplace_back(ProcessCopy([&] {
+                               OutputStreamBuffer buffer(std::move(*log));
+                               std::ostream stream(&buffer);
+                               return logged_variant(runs_[run].options, stream);
+                             }),
+                             run);
+    } catch (...) {
       stop();
-      throw std::system_error(reason, std::generic_category(), "a process for a run cannot be made");
+      throw;
     }
-    if (child == 0) run_in_child(runs_[run].options, std::move(*log));
-    children_.emplace(child, run);
   }
 
   /// Records a finished run. @return true if there was one
   bool collect() {
-    for (const auto& [child, run] : children_) {
-      int how = 0;
-      const pid_t ended = waitpid(child, &how, WNOHANG);
-      if (ended == 0) continue;
-      if (ended < 0) how = -1;
-      note(run, ended > 0 && WIFEXITED(how) ? WEXITSTATUS(how) : exit_status::failed);
+    for (auto child = children_.begin(); child != children_.end(); ++child) {
+      const std::optional<int> status = child->first.ended();
+      if (!status) continue;
+      note(child->second, *status >= 0 ? *status : exit_status::failed);
       children_.erase(child);
       return true;
     }
@@ -225,14 +210,14 @@ class Runs {
   void stop() {
     if (stopped_) return;
     stopped_ = true;
-    for (const auto& [child, run] : children_) (void)kill(child, SIGTERM);
+    for (const auto& [child, run] : children_) child.ask_to_end();
   }
 
   std::vector<SweepRun> runs_;
   int jobs_;
   bool quiet_;
   std::ostream& err_;
-  std::map<pid_t, std::size_t> children_;
+  std::vector<std::pair<ProcessCopy, std::size_t>> children_;  ///< with the numbers of their runs
   std::size_t done_ = 0;
   int status_ = exit_status::done;
   bool stopped_ = false;

@@ -1,8 +1,6 @@
 #include "apps/program/view/headless_browser.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -17,7 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "apps/program/view/child_program.hpp"
+#include "apps/results/system/child_program.hpp"
+#include "apps/results/system/this_process.hpp"
 
 namespace ashlar {
 namespace {
@@ -38,9 +37,9 @@ std::string read_file(const std::filesystem::path& path) {
 
 /// Status of a browser at its end, and its standard error.
 struct BrowserRun {
-  int status = 0;  ///< of waitpid
+  int status = 0;  ///< of run_program
   std::string errors;
-  [[nodiscard]] bool good() const { return WIFEXITED(status) && WEXITSTATUS(status) == 0; }
+  [[nodiscard]] bool good() const { return status == 0; }
 };
 
 /// @throws std::runtime_error if it does not finish within the limit
@@ -84,7 +83,7 @@ std::string loaded_page(const std::filesystem::path& browser, const std::filesys
   const std::string address = file_url(page) + "#" + fragment;
   // The page is made by this program, but its data may be untrusted: the sandbox is used if available. Chromium has
   // none for root.
-  const bool sandbox = ::geteuid() != 0;
+  const bool sandbox = !has_all_rights();
   BrowserRun run = run_browser(command, sandbox, address, folder, limit);
   if (sandbox && !run.good() && run.errors.find(no_sandbox_there) != std::string::npos)
     run = run_browser(command, false, address, folder, limit);

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/program/view/child_program.hpp"
 #include "apps/results/folder/scratch_folder.hpp"
+#include "apps/results/system/child_program.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/input_file.hpp"

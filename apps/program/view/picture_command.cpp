@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -24,6 +23,7 @@
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/scene/meshes/base64.hpp"
 #include "apps/scene/toml/fault_text.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -36,7 +36,7 @@ std::vector<T> numbers_of(std::string_view text, char separator) {
   const char* const end = at + text.size();
   while (true) {
     T number{};
-    const auto [next, error] = std::from_chars(at, end, number);
+    const auto [next, error] = parse_number(at, end, number);
     if (error != std::errc{}) return {};
     numbers.push_back(number);
     if (next == end) return numbers;

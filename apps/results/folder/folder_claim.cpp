@@ -1,18 +1,15 @@
 #include "apps/results/folder/folder_claim.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "apps/results/system/this_process.hpp"
 
 namespace ashlar {
 namespace {
@@ -40,10 +37,6 @@ constexpr std::array run_files = {"history.csv",
                                   "results.vtkhdf.old",
                                   "factor_trial.checkpoint",
                                   "factor_trial.checkpoint.tmp"};
-
-std::string reason(int code) {
-  return std::generic_category().message(code);
-}
 
 std::filesystem::file_status status_of(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -109,10 +102,10 @@ void refuse_strange_folder(const std::filesystem::path& folder, ClaimPurpose pur
 }
 
 /// "process 1234 on host here" as signed by the holder of the lock.
-std::string holder_of(int descriptor) {
-  std::array<char, 512> text{};
-  const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
-  std::string_view signature(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+std::string holder_of(const LockFile& lock) {
+  constexpr std::size_t most_bytes = 512;
+  const std::string text = lock.start(most_bytes);
+  std::string_view signature = text;
   if (!signature.starts_with(marker_text)) return "another process";
   signature.remove_prefix(marker_text.size());
   signature = signature.substr(0, signature.find('\n'));
@@ -139,86 +132,58 @@ FolderClaim::FolderClaim(std::filesystem::path folder, ClaimPurpose purpose)
   }
   try {
     do {
-      close();
       open_marker(purpose);
       lock();
-    } while (!in_place());
+    } while (!lock_.is_at(marker_));
     if (purpose == ClaimPurpose::new_run) refuse_results(folder_);
     refuse_other_kinds(folder_);
     sign();
   } catch (const std::filesystem::filesystem_error& fault) {
-    close();
     throw ClaimRefused(
         fmt::format("cannot use the result folder {}: {}", folder_.string(), fault.code().message()));
-  } catch (...) {
-    close();
-    throw;
   }
-}
-
-FolderClaim::~FolderClaim() {
-  close();
-}
-
-void FolderClaim::close() {
-  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
 }
 
 void FolderClaim::open_marker(ClaimPurpose purpose) {
-  const auto fail = [&](int code) {
-    throw ClaimRefused(fmt::format("cannot open {}: {}", marker_.string(), reason(code)));
+  const auto fail = [&](const std::error_code& reason) {
+    throw ClaimRefused(fmt::format("cannot open {}: {}", marker_.string(), reason.message()));
   };
-  while (descriptor_ < 0) {
-    // A pipe must not block the program.
-    descriptor_ = ::open(marker_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor_ >= 0) break;
-    if (errno != ENOENT) fail(errno);
+  while (const std::error_code reason = lock_.open(marker_, LockFile::Start::existing)) {
+    if (reason != std::errc::no_such_file_or_directory) fail(reason);
     refuse_strange_folder(folder_, purpose);
-    descriptor_ = ::open(marker_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) return;
-    if (errno != EEXIST) fail(errno);
+    const std::error_code created = lock_.open(marker_, LockFile::Start::created);
+    if (!created) return;
+    if (created != std::errc::file_exists) fail(created);
   }
-  struct stat status {};
-  if (::fstat(descriptor_, &status) != 0) fail(errno);
+  bool plain = false;
+  std::uint64_t bytes = 0;
+  if (const std::error_code reason = lock_.find_kind(plain, bytes)) fail(reason);
   const std::string start = start_of(marker_, marker_text.size());
   // An empty marker was just created, or the program was killed then.
-  if (!S_ISREG(status.st_mode) || (status.st_size > 0 && start != marker_text))
+  if (!plain || (bytes > 0 && start != marker_text))
     throw ClaimRefused(fmt::format("{} is in the way: it was not made by ashlar", marker_.string()));
 }
 
 void FolderClaim::lock() {
   unlocked_.clear();
-  while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    if (errno == EINTR) continue;
-    if (errno == EWOULDBLOCK) {
-      throw ClaimRefused(fmt::format(
-          "result folder {} is in use by {}: wait until it ends, or choose another folder by --out",
-          folder_.string(), holder_of(descriptor_)));
-    }
-    unlocked_ = reason(errno);
-    return;
+  const std::error_code reason = lock_.lock();
+  if (reason == std::errc::resource_unavailable_try_again || reason == std::errc::operation_would_block) {
+    throw ClaimRefused(
+        fmt::format("result folder {} is in use by {}: wait until it ends, or choose another folder by --out",
+                    folder_.string(), holder_of(lock_)));
   }
+  if (reason) unlocked_ = reason.message();
 }
 
-bool FolderClaim::in_place() const {
-  struct stat named {};
-  struct stat held {};
-  return ::lstat(marker_.c_str(), &named) == 0 && ::fstat(descriptor_, &held) == 0 &&
-         named.st_dev == held.st_dev && named.st_ino == held.st_ino;
-}
-
-void FolderClaim::sign() const {
-  std::array<char, 256> host{};
-  if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
-  const std::string text = fmt::format("{}process {} on host {}\n", marker_text, ::getpid(), host.data());
-  if (::pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()) ||
-      ::ftruncate(descriptor_, static_cast<off_t>(text.size())) != 0) {
-    throw ClaimRefused(fmt::format("cannot write {}: {}", marker_.string(), reason(errno)));
-  }
+void FolderClaim::sign() {
+  const std::string text =
+      fmt::format("{}process {} on host {}\n", marker_text, process_number(), host_name());
+  if (const std::error_code reason = lock_.replace(text))
+    throw ClaimRefused(fmt::format("cannot write {}: {}", marker_.string(), reason.message()));
 }
 
 void FolderClaim::check() const {
-  if (!in_place()) {
+  if (!lock_.is_at(marker_)) {
     throw std::runtime_error(
         fmt::format("{} was removed or replaced while the run was writing there", marker_.string()));
   }

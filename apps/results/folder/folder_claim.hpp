@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "apps/results/system/lock_file.hpp"
+
 namespace ashlar {
 
 /// Purpose of a claim.
@@ -32,9 +34,6 @@ class FolderClaim {
  public:
   /// Creates the folder if it does not exist (except for resume) and locks it. @throws ClaimRefused
   FolderClaim(std::filesystem::path folder, ClaimPurpose purpose);
-  ~FolderClaim();
-  FolderClaim(const FolderClaim&) = delete;
-  FolderClaim& operator=(const FolderClaim&) = delete;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Reason why the folder could not be locked, on a file system without locks; empty: it is locked.
@@ -45,13 +44,11 @@ class FolderClaim {
  private:
   void open_marker(ClaimPurpose purpose);
   void lock();
-  [[nodiscard]] bool in_place() const;
-  void sign() const;
-  void close();
+  void sign();
 
   std::filesystem::path folder_;
   std::filesystem::path marker_;
-  int descriptor_ = -1;
+  LockFile lock_;  ///< marker_, open
   std::string unlocked_;
 };
 

@@ -1,8 +1,9 @@
 // A folder that must remain the same during a run that writes into it.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
+
+#include "apps/results/system/named_file.hpp"
 
 namespace ashlar {
 
@@ -17,8 +18,7 @@ class FolderWatch {
 
  private:
   std::filesystem::path folder_;
-  std::uint64_t device_ = 0;
-  std::uint64_t number_ = 0;
+  NamedFile known_;
 };
 
 }  // namespace ashlar

@@ -1,25 +1,17 @@
 #include "apps/results/folder/run_summary.hpp"
 
-#include <sys/resource.h>
-
 #include <map>
 
 #include "apps/results/folder/identity_json.hpp"
 #include "apps/results/folder/program_version.hpp"
 #include "apps/results/folder/support_summary.hpp"
+#include "apps/results/system/this_process.hpp"
 #include "apps/scene/check/base_motion.hpp"
 #include "apps/scene/read/scene_json.hpp"
-
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
-
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
-}
 
 nlohmann::ordered_json counts_of(const BuiltSimulation& built) {
   const Simulation& simulation = built.simulation;

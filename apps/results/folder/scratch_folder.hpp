@@ -1,13 +1,11 @@
 // A folder for temporary files.
 #pragma once
 
-#include <stdlib.h>
-
-#include <cerrno>
 #include <filesystem>
 #include <new>
-#include <string>
 #include <system_error>
+
+#include "apps/results/system/this_process.hpp"
 
 namespace ashlar {
 
@@ -15,11 +13,7 @@ namespace ashlar {
 class ScratchFolder {
  public:
   /// @throws std::system_error if it cannot be created
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "ashlar-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    path_ = name;
-  }
+  ScratchFolder() : path_(new_private_folder(std::filesystem::temp_directory_path() / "ashlar-")) {}
   ~ScratchFolder() {
     std::error_code ignored;
     try {

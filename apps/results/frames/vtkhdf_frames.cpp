@@ -1,9 +1,7 @@
 #include "apps/results/frames/vtkhdf_frames.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
-#include <cerrno>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -13,13 +11,6 @@ namespace {
 
 constexpr const char* next_name = "results.vtkhdf.next";
 constexpr const char* between_name = "results.vtkhdf.old";  ///< of the first file while names change
-
-struct stat status_of(const std::filesystem::path& path) {
-  struct stat status {};
-  if (::lstat(path.c_str(), &status) != 0)
-    throw std::system_error(errno, std::generic_category(), "cannot find " + path.string());
-  return status;
-}
 
 }  // namespace
 
@@ -83,15 +74,12 @@ void VtkhdfFrames::exchange_names() {
 }
 
 void VtkhdfFrames::remember_file() {
-  const struct stat status = status_of(file_);
-  number_ = status.st_ino;
-  size_ = static_cast<std::uint64_t>(status.st_size);
+  known_ = named_file(file_);
 }
 
 void VtkhdfFrames::check_in_place() const {
-  const struct stat status = status_of(file_);
-  if (status.st_ino != number_ || !S_ISREG(status.st_mode) ||
-      static_cast<std::uint64_t>(status.st_size) != size_)
+  const NamedFile now = named_file(file_);
+  if (!now.is_same_as(known_) || !now.is_plain || now.bytes != known_.bytes)
     throw std::runtime_error(
         fmt::format("{} was replaced or changed by others while it was being written", file_.string()));
 }

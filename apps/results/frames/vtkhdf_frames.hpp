@@ -5,12 +5,12 @@
 // has one frame less, is brought up to date before the next one and removed at the end (notes/vtkhdf.md).
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "apps/results/frames/frame_files.hpp"
+#include "apps/results/system/named_file.hpp"
 
 namespace ashlar {
 
@@ -35,9 +35,8 @@ class VtkhdfFrames : public FrameFiles {
   std::filesystem::path file_;
   std::filesystem::path next_;
   std::vector<FrameTime> frames_;
-  std::uint64_t number_ = 0;  ///< of file_ in the file system
-  std::uint64_t size_ = 0;    ///< bytes
-  bool follows_ = false;      ///< next_ exists and has one frame less than file_
+  NamedFile known_;       ///< file_ after the last frame
+  bool follows_ = false;  ///< next_ exists and has one frame less than file_
 };
 
 /// Removes the files, in any state.

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <fstream>
 #include <stdexcept>
 
 #include "apps/results/tables/thinned_series.hpp"
 #include "apps/results/text/csv_text.hpp"
 #include "apps/scene/toml/input_file.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -31,7 +31,7 @@ std::vector<double> parse_row(std::string_view line, std::size_t columns) {
   const char* const end = at + line.size();
   while (values.size() < columns) {
     double value = 0.0;
-    const auto [next, error] = std::from_chars(at, end, value);
+    const auto [next, error] = parse_number(at, end, value);
     if (error != std::errc{}) break;
     values.push_back(value);
     if (next == end) return values;

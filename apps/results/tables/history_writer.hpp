@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/results/text/output_file.hpp"
+#include "apps/results/system/output_file.hpp"
 
 namespace ashlar {
 

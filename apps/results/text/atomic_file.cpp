@@ -1,11 +1,8 @@
 #include "apps/results/text/atomic_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -28,18 +25,6 @@ OutputFile temporary_file(const std::filesystem::path& path) {
   }
   std::filesystem::remove(path);
   return {path, OutputFile::Start::created};
-}
-
-// The new name is an entry of the folder, which is written to the disk separately.
-void sync_folder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int reason = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  // Some file systems cannot sync a folder and return EINVAL; nothing more can be done on them.
-  if (!synced && reason != EINVAL) {
-    throw std::system_error(reason, std::generic_category(), "cannot write folder " + folder.string());
-  }
 }
 
 }  // namespace
@@ -73,6 +58,7 @@ void write_file_atomically(const std::filesystem::path& path, Durability durabil
     std::filesystem::remove(temporary, ignored);
     throw;
   }
+  // The new name is an entry of the folder, which is written to the disk separately.
   if (durability == Durability::power) sync_folder(path.parent_path());
 }
 

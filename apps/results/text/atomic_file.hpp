@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "apps/results/text/output_file.hpp"
+#include "apps/results/system/output_file.hpp"
 
 namespace ashlar {
 

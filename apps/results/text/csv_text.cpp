@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "geometry/text/parse_number.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -29,7 +31,7 @@ void append_csv_number(std::string& text, double value) {
 std::optional<double> csv_number(std::string_view field) {
   double number = 0.0;
   const char* const end = field.data() + field.size();
-  const auto result = std::from_chars(field.data(), end, number);
+  const auto result = parse_number(field.data(), end, number);
   return result.ec == std::errc() && result.ptr == end ? std::optional(number) : std::nullopt;
 }
 

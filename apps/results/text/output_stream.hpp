@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/results/text/output_file.hpp"
+#include "apps/results/system/output_file.hpp"
 
 namespace ashlar {
 

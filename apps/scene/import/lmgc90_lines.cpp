@@ -9,6 +9,7 @@
 
 #include "geometry/exact/coordinate_limit.hpp"
 #include "geometry/mesh/text_scanner.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -94,7 +95,7 @@ double Lmgc90Lines::number_in(std::string_view text, std::string_view what) cons
     if (c == 'D' || c == 'd') c = 'e';
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.erase(0, 1);
   double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [end, error] = parse_number(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || end != digits.data() + digits.size())
     fail(text, fmt::format("{} ({}), must be a number", what, printable(text)));
   if (!std::isfinite(value) || is_too_far(value))

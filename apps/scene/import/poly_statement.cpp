@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <limits>
 #include <utility>
 
 #include "geometry/exact/coordinate_limit.hpp"
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/mesh/text_scanner.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -21,7 +21,7 @@ bool separates(char c) {
 std::optional<double> command_number(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = parse_number(word.data(), word.data() + word.size(), value);
   // Not words like `inf`, which no command has.
   const bool begins_as_number = word.find_first_of("0123456789") <= 2;
   if (error != std::errc() || end != word.data() + word.size() || !begins_as_number) return std::nullopt;

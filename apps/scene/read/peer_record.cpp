@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
+
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -20,7 +21,7 @@ std::optional<double> leading_number(std::string_view text, std::size_t* end = n
   std::string_view digits = text.substr(start);
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
   double value = 0.0;
-  const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [stop, status] = parse_number(digits.data(), digits.data() + digits.size(), value);
   if (status != std::errc() || !std::isfinite(value)) return std::nullopt;
   if (end != nullptr) *end = static_cast<std::size_t>(stop - text.data());
   return value;

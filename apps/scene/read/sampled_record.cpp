@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "apps/scene/read/lower_case.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -31,7 +32,7 @@ std::optional<double> number(std::string_view field) {
   std::string_view digits = trimmed(field);
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
   double value = 0.0;
-  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [end, status] = parse_number(digits.data(), digits.data() + digits.size(), value);
   if (status != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
     return std::nullopt;
   return value;

@@ -1,8 +1,9 @@
 #include "apps/scene/read/text_fields.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -52,7 +53,7 @@ char separator_of(std::string_view line) {
 std::optional<double> number_of(std::string_view digits) {
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
   double value = 0.0;
-  const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [stop, status] = parse_number(digits.data(), digits.data() + digits.size(), value);
   if (status != std::errc() || stop != digits.data() + digits.size() || !std::isfinite(value))
     return std::nullopt;
   return value;

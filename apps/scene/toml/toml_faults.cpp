@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cstddef>
 
 #include "apps/scene/toml/digit.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -74,7 +74,7 @@ std::string malformed_toml(std::string_view text, const toml::parse_error& error
 std::string number_hint(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '+')) text.remove_prefix(1);
   double value = 0.0;
-  const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [stop, status] = parse_number(text.data(), text.data() + text.size(), value);
   if (status != std::errc()) return {};
   const std::string_view rest = text.substr(static_cast<std::size_t>(stop - text.data()));
   if (rest.size() > 1 && rest.front() == ',' && is_digit(rest[1]))

@@ -1,4 +1,4 @@
-#include "apps/run/space_reserve.hpp"
+#include "apps/results/system/space_reserve.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

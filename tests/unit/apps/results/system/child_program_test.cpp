@@ -1,4 +1,4 @@
-#include "apps/program/view/child_program.hpp"
+#include "apps/results/system/child_program.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,13 +1,14 @@
-#include "apps/run/interrupt_guard.hpp"
+#include "apps/results/system/interrupt_guard.hpp"
 
-#include <unistd.h>
+#include <signal.h>
+#include <time.h>
 
 #include <array>
 #include <atomic>
-#include <csignal>
-#include <ctime>
 #include <mutex>
 #include <string_view>
+
+#include "apps/results/system/this_process.hpp"
 
 namespace ashlar {
 namespace {
@@ -47,7 +48,7 @@ extern "C" void on_interrupt(int signal) {
     first_request = now;
     // A step may take long, and a second Ctrl-C loses unsaved results.
     constexpr std::string_view note = "\nstopping after this step; Ctrl-C once more ends at once, unsaved\n";
-    if (on_terminal) (void)!::write(STDERR_FILENO, note.data(), note.size());
+    if (on_terminal) write_to_errors(note);
     return;
   }
   if (signal == SIGXCPU || now - first_request < one_request) return;
@@ -68,7 +69,7 @@ InterruptGuard::InterruptGuard() {
   const std::lock_guard lock(all.mutex);
   if (all.count++ > 0) return;
   stop_wanted = false;
-  on_terminal = ::isatty(STDERR_FILENO) != 0;
+  on_terminal = errors_go_to_a_terminal();
   for (std::size_t k = 0; k < handled.size(); ++k) {
     const bool stops = handled[k] != SIGPIPE && handled[k] != SIGXFSZ;
     sigaction(handled[k], nullptr, &all.before[k]);

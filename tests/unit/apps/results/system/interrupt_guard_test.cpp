@@ -1,4 +1,4 @@
-#include "apps/run/interrupt_guard.hpp"
+#include "apps/results/system/interrupt_guard.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -8,7 +8,7 @@
 
 namespace ashlar {
 
-/// Owns one POSIX descriptor. All functions throw std::system_error (a std::runtime_error) with
+/// Owns an open file of the system. All functions throw std::system_error (a std::runtime_error) with
 /// "cannot <what> <path>: <reason>", e.g. when the disk is full or permission is missing.
 class OutputFile {
  public:
@@ -50,5 +50,9 @@ class OutputFile {
   int descriptor_ = -1;  ///< -1 after close() or a move
   std::uintmax_t size_ = 0;
 };
+
+/// Waits until the names in a folder are on the disk; empty: the present one. No effect on file systems that cannot.
+/// @throws std::system_error "cannot write folder <folder>: <reason>"
+void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-#include "apps/results/text/output_file.hpp"
+#include "apps/results/system/output_file.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "apps/run/space_reserve.hpp"
+#include "apps/results/system/space_reserve.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "apps/results/text/output_file.hpp"
+#include "apps/results/system/output_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -92,6 +92,17 @@ void OutputFile::close() {
 void OutputFile::fail(const char* action) const {
   throw std::system_error(errno, std::generic_category(),
                           std::string("cannot ") + action + " " + path_.string());
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  // Some file systems cannot sync a folder and return EINVAL; nothing more can be done on them.
+  if (!synced && reason != EINVAL) {
+    throw std::system_error(reason, std::generic_category(), "cannot write folder " + folder.string());
+  }
 }
 
 }  // namespace ashlar

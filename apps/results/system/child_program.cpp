@@ -1,4 +1,4 @@
-#include "apps/program/view/child_program.hpp"
+#include "apps/results/system/child_program.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -93,14 +93,14 @@ class EndsTogether {
   std::array<struct sigaction, ending_signals.size()> old_{};
 };
 
-/// @return the status of waitpid; empty if the limit was reached, and then the program's whole group is ended.
+/// @return as run_program; empty if the limit was reached, and then the program's whole group is ended.
 std::optional<int> wait_for(pid_t child, std::chrono::duration<double> limit) {
   constexpr std::chrono::milliseconds pause(10);
   const auto start = std::chrono::steady_clock::now();
   int status = 0;
   while (true) {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
-    if (ended == child) return status;
+    if (ended == child) return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (ended < 0 && errno != EINTR)
       throw std::runtime_error(fmt::format("cannot wait for a program: {}", std::strerror(errno)));
     if (std::chrono::steady_clock::now() - start > limit) break;
@@ -114,12 +114,16 @@ std::optional<int> wait_for(pid_t child, std::chrono::duration<double> limit) {
 
 }  // namespace
 
+bool is_executable(const std::filesystem::path& file) {
+  return ::access(file.c_str(), X_OK) == 0;
+}
+
 std::optional<std::filesystem::path> find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
     std::filesystem::path candidate = std::filesystem::path(folder) / name;
-    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+    if (is_executable(candidate)) return candidate;
   }
   return std::nullopt;
 }

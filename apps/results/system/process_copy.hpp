@@ -1,0 +1,33 @@
+// Parts of the program in processes of their own: copies of this one (fork), which begin with all of its data. A system
+// without copies (Windows) has to start the program again, with what the function needs as arguments.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace ashlar {
+
+class ProcessCopy {
+ public:
+  /// Starts a copy that calls the function and ends with its result as exit status, 0 to 255, without destructors of
+  /// this process. Signals of the terminal do not reach it. It is asked to end when this process has ended.
+  /// @throws std::system_error if the system has no room for it
+  explicit ProcessCopy(const std::function<int()>& run);
+
+  /// Empty while it runs; afterwards, once, its exit status, or -1 if it was ended by a signal.
+  [[nodiscard]] std::optional<int> ended() const;
+  /// Asks it to end (SIGTERM).
+  void ask_to_end() const;
+
+ private:
+  std::int64_t process_;
+};
+
+/// Calls a function in a copy of this process and waits for its end. Memory that it takes is not this one's.
+/// @return what it returns; empty also if the copy cannot be made or does not end well
+[[nodiscard]] std::optional<std::string> told_by_copy(
+    const std::function<std::optional<std::string>()>& tell);
+
+}  // namespace ashlar

@@ -1,0 +1,34 @@
+// What the system knows of this process, and its standard streams.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace ashlar {
+
+[[nodiscard]] std::int64_t process_number();
+/// Empty if the system has none.
+[[nodiscard]] std::string host_name();
+/// True if it may do everything (root).
+[[nodiscard]] bool has_all_rights();
+/// Most memory that it has taken so far.
+[[nodiscard]] std::uint64_t peak_memory_bytes();
+/// Processor time of all its threads so far, s. Other programs hardly change it.
+[[nodiscard]] double processor_time();
+
+[[nodiscard]] bool errors_go_to_a_terminal();
+/// Writes to standard error at once, without allocating anything: in signal handlers too. Failures are ignored.
+void write_to_errors(std::string_view text) noexcept;
+/// Ends this process without destructors and without writing what streams hold.
+[[noreturn]] void end_at_once(int exit_status) noexcept;
+/// Opens standard streams that the caller has closed, on nothing. Otherwise their numbers would be those of the first
+/// opened files, and messages would be written into these.
+void open_closed_streams();
+
+/// A new folder, readable by its owner only. @param start of its path, to which letters are added
+/// @throws std::system_error if it cannot be created
+[[nodiscard]] std::filesystem::path new_private_folder(const std::filesystem::path& start);
+
+}  // namespace ashlar
