@@ -1,5 +1,6 @@
 #include "mechanics/contact/reference_face.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
+#include "mechanics/contact/overlap_points.hpp"
 
 namespace ashlar {
 namespace {
@@ -55,13 +57,71 @@ std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3&
   return std::nullopt;
 }
 
-/// Direction of steepest descent of the gap of two flat cells, in the frame's plane.
+/// An overlap as far as its deep end is concerned.
+struct SeenOverlap {
+  std::vector<double> gaps;  ///< at its corners, m
+  Eigen::Vector2d down;      ///< direction of steepest descent of the gap in the frame's plane; zero: none
+};
+
+/// Of two flat cells.
 Eigen::Vector2d downhill(const Vector3& normal_a, const Vector3& normal_b, const ViewFrame& frame) {
   const auto slope = [&](const Vector3& normal) {
     return Eigen::Vector2d(-Eigen::Vector2d(normal.dot(frame.e1), normal.dot(frame.e2)) /
                            normal.dot(frame.w));
   };
   return slope(normal_b) - slope(normal_a);
+}
+
+/// Of a plane through gaps at the corners, by least squares.
+Eigen::Vector2d downhill(const CellOverlap& overlap, const std::vector<double>& gaps) {
+  const auto count = static_cast<double>(gaps.size());
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const OverlapCorner& corner : overlap.corners) middle += corner.place / count;
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d products = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    const Eigen::Vector2d off = overlap.corners[k].place - middle;
+    squares += off * off.transpose();
+    products += gaps[k] * off;
+  }
+  // A sliver has a slope along it only.
+  return -squares.completeOrthogonalDecomposition().solve(products);
+}
+
+/// Distances of a body's true surface from its flat cell along w of the frame, at the corners of an overlap, m.
+std::vector<double> bulges(const ContactBody& body, const PlacedBlock& block, int cell,
+                           const CellOverlap& overlap) {
+  const CellMap map(body, cell, overlap.frame);
+  std::vector<double> result;
+  for (const OverlapCorner& corner : overlap.corners)
+    result.push_back(
+        overlap.frame.w.dot(block.place(map.reference(corner.place)) - map.placed(corner.place)));
+  return result;
+}
+
+/// @param curved gaps are those of the true surfaces: flat cells of a block that bends are tilted otherwise, by
+/// rounding alone where they are as long as the contact
+std::vector<SeenOverlap> seen_overlaps(const ContactBody& a, const ContactBody& b,
+                                       const std::vector<CellOverlap>& overlaps, bool curved) {
+  const bool bends_a = curved && !is_affine(*a.model), bends_b = curved && !is_affine(*b.model);
+  const PlacedBlock block_a(*a.model, a.state->position), block_b(*b.model, b.state->position);
+  std::vector<SeenOverlap> seen;
+  for (const CellOverlap& overlap : overlaps) {
+    seen.push_back({overlap.gaps, downhill(a.placed->normal(overlap.cell_a), b.placed->normal(overlap.cell_b),
+                                           overlap.frame)});
+    if (!bends_a && !bends_b) continue;
+    std::vector<double>& gaps = seen.back().gaps;
+    if (bends_a) {
+      const std::vector<double> higher = bulges(a, block_a, overlap.cell_a, overlap);
+      for (std::size_t k = 0; k < gaps.size(); ++k) gaps[k] += higher[k];
+    }
+    if (bends_b) {
+      const std::vector<double> higher = bulges(b, block_b, overlap.cell_b, overlap);
+      for (std::size_t k = 0; k < gaps.size(); ++k) gaps[k] -= higher[k];
+    }
+    seen.back().down = downhill(overlap, gaps);
+  }
+  return seen;
 }
 
 /// Faces that end at the deep end of their overlap.
@@ -74,36 +134,42 @@ struct DeepEnd {
 
 class DeepEndSearch {
  public:
-  DeepEndSearch(const PlacedSurface& a, const PlacedSurface& b, const std::vector<CellOverlap>& overlaps,
-                const SurfaceContinues& goes_on)
-      : a_(a), b_(b), overlaps_(overlaps), goes_on_(goes_on), tolerance_(outline_tolerance(a, b)) {}
+  DeepEndSearch(const ContactBody& a, const ContactBody& b, const std::vector<CellOverlap>& overlaps,
+                const SurfaceContinues& goes_on, bool curved)
+      : a_(*a.placed),
+        b_(*b.placed),
+        overlaps_(overlaps),
+        seen_(seen_overlaps(a, b, overlaps, curved)),
+        goes_on_(goes_on),
+        tolerance_(outline_tolerance(a_, b_)) {}
 
   /// @param cells overlaps of two faces
   [[nodiscard]] DeepEnd of(const std::vector<std::size_t>& cells) const {
-    double deepest = overlaps_[cells.front()].gaps.front();
+    double deepest = seen_[cells.front()].gaps.front();
     double highest = deepest;
     for (const std::size_t n : cells) {
-      const auto [low, high] = std::minmax_element(overlaps_[n].gaps.begin(), overlaps_[n].gaps.end());
+      const auto [low, high] = std::minmax_element(seen_[n].gaps.begin(), seen_[n].gaps.end());
       deepest = std::min(deepest, *low);
       highest = std::max(highest, *high);
     }
     DeepEnd result;
     if (!(highest - deepest > tolerance_)) return result;
-    for (const std::size_t n : cells) look_at(overlaps_[n], deepest, highest, result);
+    for (const std::size_t n : cells) look_at(overlaps_[n], seen_[n], deepest, highest, result);
     return result;
   }
 
  private:
   /// Examines sides with a deep corner.
-  void look_at(const CellOverlap& overlap, double deepest, double highest, DeepEnd& result) const {
+  void look_at(const CellOverlap& overlap, const SeenOverlap& seen, double deepest, double highest,
+               DeepEnd& result) const {
     const std::size_t count = overlap.corners.size();
     const Vector3& normal_a = a_.normal(overlap.cell_a);
     const Vector3& normal_b = b_.normal(overlap.cell_b);
-    const Eigen::Vector2d down = downhill(normal_a, normal_b, overlap.frame);
+    const Eigen::Vector2d& down = seen.down;
     if (down.isZero(0.0)) return;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t next = (k + 1) % count;
-      if (std::min(overlap.gaps[k], overlap.gaps[next]) > deepest + tolerance_) continue;
+      if (std::min(seen.gaps[k], seen.gaps[next]) > deepest + tolerance_) continue;
       const Side side{overlap.corners[k].place, overlap.corners[next].place};
       const Eigen::Vector2d along = side.end - side.start;
       if (!(along.norm() > tolerance_)) continue;
@@ -114,7 +180,7 @@ class DeepEndSearch {
       if (!(facing > alike) || facing < result.facing - alike) continue;
       const Eigen::Vector2d middle = 0.5 * (side.start + side.end);
       // A surface that continues lower than the edge by up to a tenth of the effect of the tilt counts as continuing.
-      const double gap = 0.5 * (overlap.gaps[k] + overlap.gaps[next]);
+      const double gap = 0.5 * (seen.gaps[k] + seen.gaps[next]);
       const double near = std::max(0.0, gap) + std::max(tolerance_, 0.1 * (highest - deepest));
       const ViewFrame& frame = overlap.frame;
       const auto goes_on = [&](bool rim_of_a, int face) {
@@ -136,6 +202,7 @@ class DeepEndSearch {
   const PlacedSurface& a_;
   const PlacedSurface& b_;
   const std::vector<CellOverlap>& overlaps_;
+  std::vector<SeenOverlap> seen_;  ///< by overlap
   const SurfaceContinues& goes_on_;
   double tolerance_;
 };
@@ -159,14 +226,14 @@ bool is_first_by_kind(const ContactBody& a, const ContactBody& b, bool otherwise
 
 std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
                                     const std::vector<CellOverlap>& overlaps, const SurfaceContinues& goes_on,
-                                    bool otherwise) {
+                                    bool otherwise, bool curved) {
   std::map<std::array<int, 2>, std::vector<std::size_t>> of_faces;
   for (std::size_t n = 0; n < overlaps.size(); ++n) {
     of_faces[{a.placed->surface().cells[at(overlaps[n].cell_a)].face,
               b.placed->surface().cells[at(overlaps[n].cell_b)].face}]
         .push_back(n);
   }
-  const DeepEndSearch search(*a.placed, *b.placed, overlaps, goes_on);
+  const DeepEndSearch search(a, b, overlaps, goes_on, curved);
   std::vector<bool> result(overlaps.size(), is_first_by_kind(a, b, otherwise));
   for (const auto& [faces, cells] : of_faces) {
     const DeepEnd end = search.of(cells);

@@ -32,9 +32,11 @@ using SurfaceContinues = std::function<bool(const RimPlace&)>;
 /// decide. Then fixed blocks precede others, undivided surfaces precede divided ones, and larger volumes precede
 /// those smaller by more than rounding.
 /// @param otherwise true if a has the reference face of equal blocks: nothing in the pair decides
+/// @param curved gaps are those of the true surfaces of blocks that bend, not of their flat cells
 /// @return (#overlaps)
 [[nodiscard]] std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
                                                   const std::vector<CellOverlap>& overlaps,
-                                                  const SurfaceContinues& goes_on, bool otherwise = false);
+                                                  const SurfaceContinues& goes_on, bool otherwise = false,
+                                                  bool curved = false);
 
 }  // namespace ashlar
