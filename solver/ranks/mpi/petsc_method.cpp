@@ -41,8 +41,10 @@ std::string PetscMethod::option(const char* name) const {
   return given == PETSC_TRUE ? value.data() : "";
 }
 
+/// Joins neighbours only, not their neighbours too: three quarters of the iterations (../../notes/rank_solver.md).
 /// Smooths by the diagonal blocks of bodies of one size, else by point relaxation, unless options say otherwise.
 void PetscMethod::choose_multigrid() const {
+  check_petsc(PCGAMGSetAggressiveLevels(preconditioner_, 0));
   const char* name = "-mg_levels_pc_type";
   if (option(name).empty())
     check_petsc(PetscOptionsSetValue(nullptr, name, matrix_.common_size() > 1 ? PCPBJACOBI : PCSOR));

@@ -17,9 +17,9 @@
 
 namespace ashlar {
 
-/// Limits of the default method. ../../notes/ranks_solver.md has the measurements.
+/// Limits of the default method. ../../notes/rank_solver.md has the measurements.
 struct PetscSolverLimits {
-  std::int64_t most_factored = 200'000;  ///< unknowns of all ranks up to which a factor is the default
+  std::int64_t most_factored = 100'000;  ///< unknowns of all ranks up to which a factor is the default
 };
 
 /// Residual of iterated solutions relative to the right side.
