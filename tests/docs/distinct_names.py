@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 # Folders whose sources are one library, the deepest first.
-LIBRARIES = ["geometry", "mechanics", "solver", "apps/scene", "apps/results", "apps/run", "apps/python", "apps"]
+LIBRARIES = ["geometry", "mechanics", "solver/ranks/mpi", "solver", "apps/scene", "apps/results", "apps/run", "apps/python", "apps"]
 TESTS = ["tests/unit", "tests/oracle"]
 NAMED = r"^namespace ashlar \{"
 NOT_CODE = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|//[^\n]*|/\*.*?\*/|^#[^\n]*',
@@ -69,6 +69,8 @@ def names(statement):
     """(name, what tells it from others of the same name), none for what declares no name."""
     statement = re.sub(r"^(\[\[[\w:, ]+\]\] )+", "", re.sub(r"^template <[^()]*?> (?=[a-z\[A-Z])", "", statement))
     if re.match(r"(using namespace|using [\w:]+$|static_assert|friend)\b", statement) or not statement:
+        return
+    if re.search(r"(?<![\w:])(?!std::)\w+::~?\w+ ?\(", statement.split("=")[0]):  # a member of a class
         return
     kind = re.match(r"(?:struct|class|enum class|enum|union) (\w+)", statement)
     alias = re.match(r"(?:using|namespace) (\w+) = (.*)", statement)
@@ -154,7 +156,8 @@ def self_test():
     """Exit status."""
     in_unnamed = "namespace ashlar {{\nnamespace {{\n\n{}\n\n}}  // namespace\n}}  // namespace ashlar\n".format
     first = in_unnamed("struct Side {\n  int from;\n};\nusing Json = A;\nconstexpr double low = 1.0, high = 2.0;\n"
-                       "int sum(const Side& a, int b) {\n  return b;\n}\nvoid print(int a);")
+                       "int sum(const Side& a, int b) {\n  return b;\n}\nvoid print(int a);\n"
+                       "int Side::high(int a) const {\n  return a;\n}")
     cases = {
         "struct Side {\n  int to;\n};": 1,
         "using Side = int;": 1,
@@ -167,6 +170,7 @@ def self_test():
         "int other(int sum) {\n  const int low = 1;\n  return low;\n}": 0,
         "template <class T>\nvoid print(T a) {}": 0,
         'const char* text = "int low = 1;";': 0,
+        "int Side::low(int a) const {\n  return a;\n}": 0,
     }
     wrong = 0
     with tempfile.TemporaryDirectory() as folder:
