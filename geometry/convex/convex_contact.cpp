@@ -13,9 +13,9 @@ namespace ashlar {
 
 namespace {
 
-class ContactReport {
+class ConvexContactFinder {
  public:
-  ContactReport(const ConvexShape& a, const ConvexShape& b, const Resolution& resolution = {})
+  ConvexContactFinder(const ConvexShape& a, const ConvexShape& b, const Resolution& resolution = {})
       : a_(a), b_(b), resolution_(resolution), heights_(a, b) {
     NumericRange range = a.range();
     range.include(b.range());
@@ -262,13 +262,13 @@ class ContactReport {
 [[gnu::noinline]] ConvexContact classify_to_nearest(const ConvexShape& a, const ConvexShape& b,
                                                     const std::optional<Entrance>& history,
                                                     const CrossingDetail& detail) {
-  return ContactReport(a, b).run(history, detail);
+  return ConvexContactFinder(a, b).run(history, detail);
 }
 
 [[gnu::noinline]] ResolvedContact resolve_to_nearest(const ConvexShape& a, const ConvexShape& b,
                                                      const Resolution& resolution,
                                                      const std::optional<Entrance>& history) {
-  return ContactReport(a, b, resolution).run_resolved(history);
+  return ConvexContactFinder(a, b, resolution).run_resolved(history);
 }
 
 [[gnu::noinline]] std::optional<Entrance> find_entrance_to_nearest(const ConvexShape& a, const ConvexShape& b,

@@ -93,18 +93,18 @@ class RigidMotions {
 };
 
 /// When a point is about to touch on free motion, and how fast.
-struct Touch {
+struct FirstTouch {
   double time;   ///< s
   double speed;  ///< of approach, m/s
 };
 
 /// Solves  gap + u t + a t^2/2 = 0  for the first t > 0. Empty: never
-std::optional<Touch> touch_of(double gap, double velocity, double acceleration) {
+std::optional<FirstTouch> touch_of(double gap, double velocity, double acceleration) {
   const double square = velocity * velocity - 2.0 * acceleration * gap;
   if (!(square >= 0.0)) return std::nullopt;
   const double speed = std::sqrt(square);
   if (!(speed - velocity > 0.0)) return std::nullopt;
-  return Touch{2.0 * gap / (speed - velocity), speed};
+  return FirstTouch{2.0 * gap / (speed - velocity), speed};
 }
 
 /// Time of the first impact of a pair in a solved step, s; infinity: none.
@@ -124,8 +124,8 @@ double first_impact(const StepProblem& problem, double step, const ContactPair& 
       rates = motions.accelerations(pair, problem);
     }
     const double way = gap - 0.5 * touching;
-    const Touch straight{step * way / (gap - end[k]), (gap - end[k]) / step};
-    const Touch touch = touch_of(way, velocities[k], rates[k]).value_or(straight);
+    const FirstTouch straight{step * way / (gap - end[k]), (gap - end[k]) / step};
+    const FirstTouch touch = touch_of(way, velocities[k], rates[k]).value_or(straight);
     if (touch.speed > fast) first = std::min(first, touch.time);
   }
   return first;

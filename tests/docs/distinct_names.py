@@ -4,7 +4,8 @@
     distinct_names.py --self-test  each kind of clash is found
 
 In the sources of a library a name in an unnamed namespace is one thing. Functions of the same name, those of headers and static ones too, differ in the
-types of their parameters; types and aliases of the same name are the same alias. A test has a namespace of its own, which ends
+types of their parameters; types and aliases of the same name are the same alias, and a type of a header of any library has a name of
+its own. A test has a namespace of its own, which ends
 with the name of its file: helpers of tests are called cube and rock in many files.
 """
 import collections
@@ -98,9 +99,15 @@ def functions_of(text, opening, starts=""):
                 yield name, re.sub(r"\bconst |&", "", rest)
 
 
+def types_of(text, opening):
+    """Names of types that are declared directly in a namespace."""
+    for statement in statements(text, opening):
+        yield from (name for name, rest in names(statement) if rest == "a type")
+
+
 def clashes_with_headers(sources, headers):
-    """Lines for users: a function of a source that a header, or a static one of another source, has too. Calls would be
-    ambiguous where both are in view.
+    """Lines for users: a function of a source that a header, or a static one of another source, has too, or a type that a
+    header has. They would be ambiguous where both are in view.
     @param sources, headers {path: text}"""
     declared = {}
     for path, text in headers.items():
@@ -114,6 +121,14 @@ def clashes_with_headers(sources, headers):
         others = ([declared[name, types]] if (name, types) in declared else []) + sorted(paths)
         if len(others) > 1:
             yield f"{others[1]}: {name}{types} is also in {others[0]}"
+    types = {}
+    for path, text in headers.items():
+        for name in types_of(text, NAMED):
+            types.setdefault(name, path)
+    for path, text in sources.items():
+        for name in types_of(text, r"^namespace \{"):
+            if name in types:
+                yield f"{path}: {name}, a type, is also in {types[name]}"
 
 
 def clashes_of_library(sources):
@@ -184,8 +199,9 @@ def self_test():
             if min(len(found), 1) != expected:
                 print(f"{second!r}: {found}")
                 wrong = 1
-        (project / "solver" / "c.hpp").write_text("namespace ashlar {\nint half(double whole);\n}\n", encoding="utf-8")
-        for second, expected in (("int half(const double& all) {\n  return 1;\n}", 1), ("int half(int all) {\n  return 1;\n}", 0)):
+        (project / "solver" / "c.hpp").write_text("namespace ashlar {\nstruct Whole {\n  int size;\n};\nint half(double whole);\n}\n", encoding="utf-8")
+        for second, expected in (("int half(const double& all) {\n  return 1;\n}", 1), ("int half(int all) {\n  return 1;\n}", 0),
+                                 ("struct Whole {\n  int length;\n};", 1)):
             (project / "solver" / "b.cpp").write_text(in_unnamed(second), encoding="utf-8")
             if min(len(list(faults_of(project))), 1) != expected:
                 print(f"{second!r} beside a header")
