@@ -26,7 +26,7 @@ def test_meshio_reads_every_frame(tmp_path, order):
         "analysis": {"end_time": 0.02, "time_step": 1e-3, "gravity": [0, 0, -10]},
         "contact": {"friction_angle": 30},
         "material": [{"name": "stone", "density": 2000, "young_modulus": 1e7, "poisson_ratio": 0.2}],
-        "output": {"every": 10},
+        "output": {"every": 10, "precision": "double"},
         "block": [
             {"name": "floor", "fixed": True, "box": {"min": [-1, -1, -1], "max": [2, 2, 0]}},
             {"name": "cube", "material": "stone", "order": order, "box": {"min": [0, 0, 0], "max": [1, 1, 1]},
@@ -54,3 +54,29 @@ def test_meshio_reads_every_frame(tmp_path, order):
     assert np.isfinite(contacts.points).all() and len(contacts.points) == len(sim.contacts())
     joints = read(frames(tmp_path / "out", "joints")[-1])
     assert sum(len(cells) for cells in joints.cells) == len(joints.cell_data["opening"][0])
+
+
+def test_single_precision_halves_fields_and_keeps_places(tmp_path):
+    def last_frames(precision):
+        sim = ashlar.Scene.from_dict({
+            "analysis": {"end_time": 0.02, "time_step": 1e-3, "gravity": [0, 0, -10]}, "contact": {"friction_angle": 30},
+            "material": [{"name": "stone", "density": 2000, "young_modulus": 1e7, "poisson_ratio": 0.2}],
+            "output": {"every": 10, **precision},
+            "block": [{"name": "floor", "fixed": True, "box": {"min": [-1, -1, -1], "max": [2, 2, 0]}},
+                      {"name": "cube", "material": "stone", "box": {"min": [0, 0, 0], "max": [1, 1, 1]},
+                       "velocity": [1, 0, 0]}]}).simulation()
+        folder = tmp_path / str(len(precision))
+        sim.record(folder)
+        sim.run()
+        return {series: read(frames(folder, series)[-1]) for series in ("blocks", "contacts", "joints")}
+
+    exact, rounded = last_frames({"precision": "double"}), last_frames({})
+    assert (rounded["blocks"].points == exact["blocks"].points).all()
+    for series in ("contacts", "joints"):
+        assert rounded[series].points.dtype == np.float32
+        assert (rounded[series].points == exact[series].points.astype(np.float32)).all()
+    for series, frame in rounded.items():
+        for name, values in frame.point_data.items():
+            told = exact[series].point_data[name]
+            assert values.dtype == (np.float32 if told.dtype == np.float64 else told.dtype), name
+            assert (values == told.astype(values.dtype)).all(), name

@@ -20,7 +20,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 # File of each frame of a series; None: no points.
 FRAMES = {"mixed": ["mixed", "mixed", "mixed"], "curved": ["curved_2", "curved_3", "curved_5"],
-          "points": [None, "points_4096", "points_4097"]}
+          "points": [None, "points_4096", "points_4097"], "rounded": ["rounded", "rounded", "rounded"]}
 NAMES = ["a < b & c", "", "K\u00e4mpfer 1"]
 KINDS = {"PointData": "PointOffsets", "CellData": "CellOffsets"}
 READS_COLLECTIONS = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion(),
@@ -122,7 +122,8 @@ class OneFile(unittest.TestCase):
             self.assertEqual(steps.attrs["NSteps"], 3)
             self.assertEqual(list(steps["Values"]), [0.0, 0.1, 0.2])
             self.assertEqual(list(steps["NumberOfParts"]), [1, 1, 1])
-            kinds = {"Points": (np.dtype("<f8"), 2), "Types": (np.dtype("u1"), 1), "Connectivity": (integers, 1),
+            real = np.dtype("<f4" if name == "rounded" else "<f8")
+            kinds = {"Points": (real, 2), "Types": (np.dtype("u1"), 1), "Connectivity": (integers, 1),
                      "Offsets": (integers, 1), "NumberOfPoints": (integers, 1), "NumberOfCells": (integers, 1),
                      "NumberOfConnectivityIds": (integers, 1), "Steps/PartOffsets": (integers, 1),
                      "Steps/PointOffsets": (integers, 1), "Steps/CellOffsets": (integers, 2),
@@ -136,6 +137,12 @@ class OneFile(unittest.TestCase):
                 self.assertEqual(len(steps[dataset]), len(files))
             for dataset in ("Points", "Types", "Connectivity", "PointData/" + list(series["PointData"])[0]):
                 self.assertEqual((series[dataset].compression, series[dataset].shuffle), ("gzip", True), dataset)
+
+    def test_single_precision_is_the_nearest(self):
+        series = self.root["rounded"]
+        self.assertTrue(same_bits(series["PointData/value"][:100], np.sqrt(np.arange(100.0)).astype("<f4")))
+        self.assertTrue(same_bits(series["Points"][:100, 0], np.arange(100, dtype="<f4")))
+        self.assertEqual(list(series["Steps/PointOffsets"]), [0, 0, 0])
 
     def test_names_are_no_fields(self):
         for name in FRAMES:

@@ -64,6 +64,14 @@ UnstructuredGrid many_points(int count) {
   return grid;
 }
 
+/// The same in single precision.
+UnstructuredGrid rounded_points(int count) {
+  UnstructuredGrid grid = many_points(count);
+  grid.stored_points = StoredReal::float32;
+  grid.point_data[0].stored = StoredReal::float32;
+  return grid;
+}
+
 UnstructuredGrid empty_grid() {
   UnstructuredGrid grid;
   grid.point_data.push_back({"force", 3, {}, std::vector<double>{}});
@@ -122,7 +130,7 @@ UnstructuredGrid solid_grid() {
 
 // The samples above as three frames of a file, see FRAMES of read_vtkhdf.py.
 void write_frames(const std::filesystem::path& path) {
-  create_vtkhdf(path, std::vector<std::string>{"mixed", "curved", "points"});
+  create_vtkhdf(path, std::vector<std::string>{"mixed", "curved", "points", "rounded"});
   const std::vector<std::string> names = mixed_grid().block_names;
   UnstructuredGrid none;
   none.point_data.push_back({"value", 1, {}, std::vector<double>{}});
@@ -132,7 +140,8 @@ void write_frames(const std::filesystem::path& path) {
     append_vtkhdf(path, {0.1 * k, 10 * k},
                   std::vector<SeriesGrid>{{"mixed", mixed_grid()},
                                           {"curved", curved_grid(orders.at(at(k)), false)},
-                                          {"points", points.at(at(k))}},
+                                          {"points", points.at(at(k))},
+                                          {"rounded", rounded_points(100)}},
                   names);
   }
 }
@@ -143,6 +152,7 @@ void write_samples(const std::filesystem::path& folder) {
   write_vtu(folder / "frames/empty.vtu", empty_grid());
   write_vtu(folder / "frames/points_4096.vtu", many_points(4096));
   write_vtu(folder / "frames/points_4097.vtu", many_points(4097));
+  write_vtu(folder / "frames/rounded.vtu", rounded_points(100));
   for (const int order : {2, 3, 5, 8, 12})
     for (const bool solid : {false, true})
       write_vtu(folder / ((solid ? "frames/solid_" : "frames/curved_") + std::to_string(order) + ".vtu"),

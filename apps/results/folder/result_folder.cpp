@@ -73,6 +73,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       actions_(drawn_actions(scene, simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       series_(series_of(scene, simulation)),
+      precision_(frame_precision(output_, simulation.blocks())),
       frames_(new_frame_files(folder_, output_.format, series_)),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
   progress_.stage = scene.stage.empty() ? 0 : place.stage;
@@ -96,6 +97,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                                      history_columns(measures_, !scene.stage.empty()),
                                      state.progress.last_row_step)),
       series_(series_of(scene, simulation)),
+      precision_(frame_precision(output_, simulation.blocks())),
       frames_(resumed_frame_files(folder_, output_.format, series_, state.frames)),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
       progress_(state.progress) {
@@ -174,7 +176,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
       if (series == "blocks" && output_.solid) return shown(solid_frame, drawn_.solids);
       return shown(block_frame, drawn_.surfaces);
     };
-    grids.push_back({series, grid()});
+    set_precision(grids.emplace_back(SeriesGrid{series, grid()}).grid, series, precision_);
   }
   const std::uintmax_t rows = contact_rows_.size();
   add_contact_rows(simulation);

@@ -11,6 +11,7 @@
 #include "apps/results/frames/block_frames.hpp"
 #include "apps/results/frames/contact_frame.hpp"
 #include "apps/results/frames/frame_files.hpp"
+#include "apps/results/frames/frame_precision.hpp"
 #include "apps/results/frames/joint_faces.hpp"
 #include "apps/results/frames/largest_values.hpp"
 #include "apps/results/frames/load_frames.hpp"
@@ -103,6 +104,7 @@ class ResultFolder {
   DrawnActions actions_;
   HistoryWriter history_;
   std::vector<std::string> series_;  ///< of frames
+  FramePrecision precision_;         ///< the same
   std::unique_ptr<FrameFiles> frames_;
   OutputFile contact_rows_;
   ResultProgress progress_;

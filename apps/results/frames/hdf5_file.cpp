@@ -70,6 +70,8 @@ hid_t new_file_type(Hdf5Type type) {
   switch (type) {
     case Hdf5Type::real64:
       return H5Tcopy(H5T_IEEE_F64LE);
+    case Hdf5Type::real32:
+      return H5Tcopy(H5T_IEEE_F32LE);
     case Hdf5Type::integer32:
       return H5Tcopy(H5T_STD_I32LE);
     case Hdf5Type::integer64:
@@ -84,11 +86,12 @@ hid_t new_file_type(Hdf5Type type) {
   return text;
 }
 
-constexpr std::array all_types = {Hdf5Type::real64, Hdf5Type::integer32, Hdf5Type::integer64,
-                                  Hdf5Type::unsigned8, Hdf5Type::text};
+constexpr std::array all_types = {Hdf5Type::real64,    Hdf5Type::real32,    Hdf5Type::integer32,
+                                  Hdf5Type::integer64, Hdf5Type::unsigned8, Hdf5Type::text};
 
 template <class T>
 constexpr Hdf5Type type_of = std::is_same_v<T, double>         ? Hdf5Type::real64
+                             : std::is_same_v<T, float>        ? Hdf5Type::real32
                              : std::is_same_v<T, std::int32_t> ? Hdf5Type::integer32
                              : std::is_same_v<T, std::int64_t> ? Hdf5Type::integer64
                              : std::is_same_v<T, std::uint8_t> ? Hdf5Type::unsigned8
@@ -97,7 +100,8 @@ constexpr Hdf5Type type_of = std::is_same_v<T, double>         ? Hdf5Type::real6
 void set_fill(hid_t creation, Hdf5Type type) {
   const double no_number = std::numeric_limits<double>::quiet_NaN();
   const std::int64_t no_index = -1;
-  if (type == Hdf5Type::real64) H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &no_number);
+  if (type == Hdf5Type::real64 || type == Hdf5Type::real32)
+    H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &no_number);
   if (type == Hdf5Type::integer32 || type == Hdf5Type::integer64)
     H5Pset_fill_value(creation, H5T_NATIVE_INT64, &no_index);
 }
@@ -381,11 +385,13 @@ std::vector<T> Hdf5File::read(const std::string& table, std::uint64_t start, std
 }
 
 template void Hdf5File::write(const std::string&, std::uint64_t, std::span<const double>);
+template void Hdf5File::write(const std::string&, std::uint64_t, std::span<const float>);
 template void Hdf5File::write(const std::string&, std::uint64_t, std::span<const std::int32_t>);
 template void Hdf5File::write(const std::string&, std::uint64_t, std::span<const std::int64_t>);
 template void Hdf5File::write(const std::string&, std::uint64_t, std::span<const std::uint8_t>);
 template void Hdf5File::write(const std::string&, std::uint64_t, std::span<const std::string>);
 template std::vector<double> Hdf5File::read(const std::string&, std::uint64_t, std::uint64_t) const;
+template std::vector<float> Hdf5File::read(const std::string&, std::uint64_t, std::uint64_t) const;
 template std::vector<std::int32_t> Hdf5File::read(const std::string&, std::uint64_t, std::uint64_t) const;
 template std::vector<std::int64_t> Hdf5File::read(const std::string&, std::uint64_t, std::uint64_t) const;
 template std::vector<std::uint8_t> Hdf5File::read(const std::string&, std::uint64_t, std::uint64_t) const;

@@ -14,7 +14,7 @@ namespace ashlar {
 
 /// Type of a table's values, little-endian. `text` is UTF-8 of any length but declared as ASCII, as VTK's reader asks
 /// for ASCII and the library does not convert.
-enum class Hdf5Type { real64, integer32, integer64, unsigned8, text };
+enum class Hdf5Type { real64, real32, integer32, integer64, unsigned8, text };
 
 /// Layout of a table, fixed when it is created.
 struct Hdf5Table {
@@ -65,14 +65,14 @@ class Hdf5File {
 
   void add_table(const std::string& table, const Hdf5Table& layout);
   [[nodiscard]] Hdf5Table table(const std::string& table) const;
-  /// New rows have NaN (real64), -1 (integers), 0 (unsigned8) or an empty text; others than the first are lost.
+  /// New rows have NaN (real64, real32), -1 (integers), 0 (unsigned8) or an empty text; others than the first are lost.
   void resize(const std::string& table, std::uint64_t rows);
 
   /// Makes a table that has the first rows of the other file's equal to it. Compressed chunks are copied as they are.
   void add_rows_of(const Hdf5File& other, const std::string& table);
 
   /// Rows from `start` on, which are added as far as they do not exist.
-  /// @tparam T double, std::int32_t, std::int64_t, std::uint8_t or std::string: that of the table
+  /// @tparam T double, float, std::int32_t, std::int64_t, std::uint8_t or std::string: that of the table
   template <class T>
   void write(const std::string& table, std::uint64_t start, std::span<const T> values);
   /// @throws also if the table has other values or fewer rows. @return (rows x columns)

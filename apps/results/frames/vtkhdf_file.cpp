@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "apps/results/frames/vtkhdf_tables.hpp"
@@ -33,6 +34,14 @@ std::uint64_t chunk_rows(std::uint64_t rows, std::uint64_t row_bytes) {
   return std::max((rows + chunks - 1) / chunks, least_chunk);
 }
 
+Hdf5Type table_type(StoredReal stored) {
+  return stored == StoredReal::float64 ? Hdf5Type::real64 : Hdf5Type::real32;
+}
+
+std::uint64_t size_of(StoredReal stored) {
+  return stored == StoredReal::float64 ? sizeof(double) : sizeof(float);
+}
+
 void append_entry(Hdf5File& file, const std::string& table, std::int64_t value) {
   file.write<std::int64_t>(table, file.table(table).rows, std::array{value});
 }
@@ -51,14 +60,14 @@ class SeriesWriter {
 
   void append(const UnstructuredGrid& grid) {
     const FrameCounts counts = {grid.points.size(), grid.types.size(), grid.connectivity.size()};
-    if (!file_.exists(group_ + "/Points")) add_geometry_tables(counts);
+    if (!file_.exists(group_ + "/Points")) add_geometry_tables(counts, grid.stored_points);
     append_cells(grid, counts);
     std::vector<double> places;
     places.reserve(3 * counts.points);
     for (const Vector3& point : grid.points) places.insert(places.end(), {point.x(), point.y(), point.z()});
-    append_entry(
-        file_, group_ + "/Steps/PointOffsets",
-        static_cast<std::int64_t>(stored(group_ + "/Points", last_.point, last_counts_.points, places)));
+    append_entry(file_, group_ + "/Steps/PointOffsets",
+                 static_cast<std::int64_t>(
+                     stored_reals(group_ + "/Points", last_.point, last_counts_.points, places)));
     append_data("PointData", grid.point_data, counts.points, &FrameCounts::points);
     append_data("CellData", grid.cell_data, counts.cells, &FrameCounts::cells);
     append_entry(file_, group_ + "/Steps/NumberOfParts", 1);
@@ -66,12 +75,12 @@ class SeriesWriter {
   }
 
  private:
-  void add_geometry_tables(const FrameCounts& counts) {
+  void add_geometry_tables(const FrameCounts& counts, StoredReal points) {
     const auto add = [&](const char* name, Hdf5Type type, int columns, std::uint64_t rows,
                          std::uint64_t bytes) {
       file_.add_table(group_ + "/" + name, {type, columns, chunk_rows(rows, bytes), true});
     };
-    add("Points", Hdf5Type::real64, 3, counts.points, 3 * sizeof(double));
+    add("Points", table_type(points), 3, counts.points, 3 * size_of(points));
     add("Connectivity", Hdf5Type::integer64, 0, counts.connectivity, sizeof(std::int64_t));
     // Places in both depend on each other.
     add("Offsets", Hdf5Type::integer64, 0, counts.cells, sizeof(std::int64_t));
@@ -93,6 +102,13 @@ class SeriesWriter {
     const std::uint64_t start = end_of(table, !values.empty());
     file_.write<T>(table, start, values);
     return start;
+  }
+
+  /// The same for reals, rounded if the table has single precision.
+  std::uint64_t stored_reals(const std::string& table, std::uint64_t last, std::uint64_t last_rows,
+                             const std::vector<double>& values) {
+    return file_.table(table).type == Hdf5Type::real32 ? stored(table, last, last_rows, to_float32(values))
+                                                       : stored(table, last, last_rows, values);
   }
 
   /// True if the rows have these values. Most fields differ in their first values already.
@@ -167,9 +183,10 @@ class SeriesWriter {
                  std::uint64_t rows, std::uint64_t FrameCounts::*count) {
     const bool real = std::holds_alternative<std::vector<double>>(array.values);
     const int columns = array.components == 1 ? 0 : array.components;
-    const std::uint64_t row_bytes = static_cast<std::uint64_t>(array.components) * (real ? 8 : 4);
-    file_.add_table(
-        table, {real ? Hdf5Type::real64 : Hdf5Type::integer32, columns, chunk_rows(rows, row_bytes), true});
+    const std::uint64_t row_bytes =
+        static_cast<std::uint64_t>(array.components) * (real ? size_of(array.stored) : sizeof(std::int32_t));
+    file_.add_table(table, {real ? table_type(array.stored) : Hdf5Type::integer32, columns,
+                            chunk_rows(rows, row_bytes), true});
     file_.add_table(offset, {Hdf5Type::integer64, 0, step_chunk});
     // Frames before the first with this field.
     const std::uint64_t frames = frames_;
@@ -184,14 +201,17 @@ class SeriesWriter {
   void append_field(const std::string& table, const std::string& offset, const std::vector<T>& values,
                     std::uint64_t last_rows) {
     const auto last = frames_ == 0 ? 0 : static_cast<std::uint64_t>(entry(file_, offset, frames_ - 1));
-    append_entry(file_, offset, static_cast<std::int64_t>(stored(table, last, last_rows, values)));
+    if constexpr (std::is_same_v<T, double>)
+      append_entry(file_, offset, static_cast<std::int64_t>(stored_reals(table, last, last_rows, values)));
+    else
+      append_entry(file_, offset, static_cast<std::int64_t>(stored(table, last, last_rows, values)));
   }
 
   void append_missing(const std::string& table, const std::string& offset, std::uint64_t rows,
                       std::uint64_t last_rows) {
     const Hdf5Table layout = file_.table(table);
     const std::size_t values = rows * static_cast<std::uint64_t>(std::max(layout.columns, 1));
-    if (layout.type == Hdf5Type::real64) {
+    if (layout.type == Hdf5Type::real64 || layout.type == Hdf5Type::real32) {
       constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
       append_field(table, offset, std::vector<double>(values, no_number), last_rows);
     } else {

@@ -5,10 +5,10 @@
 //     Assembly/SERIES/SERIES    soft link to /VTKHDF/SERIES, in a node of that name, which ParaView shows
 //     SERIES                attributes Version, Type, Index
 //       NumberOfPoints, NumberOfCells, NumberOfConnectivityIds   (#parts) int64
-//       Points              (., 3) float64, m
+//       Points              (., 3) float64 or float32, m
 //       Connectivity        (.) int64, point indices within the part
 //       Offsets, Types      (.) int64: 0 and the end of each cell; uint8
-//       PointData/NAME, CellData/NAME    (.) or (., components) float64 or int32
+//       PointData/NAME, CellData/NAME    (.) or (., components) float64, float32 or int32
 //       FieldData/step      (#frames) int64, step of the run
 //       FieldData/block_names  (.) UTF-8 texts, by the numbers of the fields `block`
 //       Steps               attribute NSteps: frames
@@ -71,7 +71,7 @@ class VtkhdfReader {
 
   [[nodiscard]] const std::vector<FrameTime>& frames() const { return frames_; }
   [[nodiscard]] bool has(const std::string& series) const;
-  /// The grid as it was appended, bit for bit, with time and block names, without names of components. At most 16 MiB
+  /// The grid as it was appended, rounded where it is stored so, otherwise bit for bit, with time and block names, without names of components. At most 16 MiB
   /// and 256 bytes for each byte of the file are allocated.
   [[nodiscard]] UnstructuredGrid read(const std::string& series, std::size_t frame) const;
 

@@ -35,6 +35,18 @@ class SeriesRows {
     left_ -= wanted * bytes;
     return file_.read<T>(group_ + table, static_cast<std::uint64_t>(start), wanted);
   }
+  /// Numbers of double or single precision. @param stored which of both the table has
+  std::vector<double> reals(const std::string& table, std::int64_t start, std::int64_t count,
+                            StoredReal& stored) {
+    const bool rounded = file_.table(group_ + table).type == Hdf5Type::real32;
+    stored = rounded ? StoredReal::float32 : StoredReal::float64;
+    if (!rounded) return rows<double>(table, start, count);
+    const std::vector<float> values = rows<float>(table, start, count);
+    if (values.size() > left_ / sizeof(double))
+      fail("the arrays are larger than a file of this size can hold");
+    left_ -= values.size() * sizeof(double);
+    return {values.begin(), values.end()};
+  }
   std::int64_t entry(const std::string& table, std::int64_t row) {
     return rows<std::int64_t>(table, row, 1).at(0);
   }
@@ -45,11 +57,11 @@ class SeriesRows {
       const std::string table = kind + "/" + name;
       const Hdf5Table layout = file_.table(group_ + table);
       const std::int64_t start = entry("Steps/" + kind + "Offsets/" + name, frame);
-      DataArray& array = arrays.emplace_back(DataArray{name, std::max(layout.columns, 1), {}, {}});
-      if (layout.type == Hdf5Type::real64)
-        array.values = rows<double>(table, start, count);
-      else
+      DataArray& array = arrays.emplace_back(DataArray{name, std::max(layout.columns, 1), {}, {}, {}});
+      if (layout.type == Hdf5Type::integer32)
         array.values = rows<std::int32_t>(table, start, count);
+      else
+        array.values = reals(table, start, count, array.stored);
     }
     return arrays;
   }
@@ -103,12 +115,13 @@ UnstructuredGrid VtkhdfReader::read(const std::string& series, std::size_t frame
   const std::int64_t part = rows.entry("Steps/PartOffsets", k);
   const std::int64_t points = rows.entry("NumberOfPoints", part), cells = rows.entry("NumberOfCells", part);
   const std::int64_t cell = rows.entry("Steps/CellOffsets", k);
-  const std::vector<double> places = rows.rows<double>("Points", rows.entry("Steps/PointOffsets", k), points);
+  UnstructuredGrid grid;
+  const std::vector<double> places =
+      rows.reals("Points", rows.entry("Steps/PointOffsets", k), points, grid.stored_points);
   const std::vector<std::int64_t> connectivity =
       rows.rows<std::int64_t>("Connectivity", rows.entry("Steps/ConnectivityIdOffsets", k),
                               rows.entry("NumberOfConnectivityIds", part));
   const std::vector<std::int64_t> offsets = rows.rows<std::int64_t>("Offsets", cell + part + 1, cells);
-  UnstructuredGrid grid;
   for (const std::uint8_t type : rows.rows<std::uint8_t>("Types", cell, cells))
     grid.types.push_back(static_cast<VtkCellType>(type));
   grid.point_data = rows.fields("PointData", k, points);

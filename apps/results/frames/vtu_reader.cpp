@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -16,6 +15,7 @@
 #include "apps/results/text/xml_text.hpp"
 #include "apps/scene/toml/input_file.hpp"
 #include "geometry/mesh/text_scanner.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -27,7 +27,7 @@ namespace {
 template <class T>
 T number(std::string_view text) {
   T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = parse_number(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size())
     fail(fmt::format("no number ({})", printable(text)));
   return value;
@@ -94,6 +94,15 @@ class CompressedArray {
     std::vector<T> result(tuples * components);
     unpack(reinterpret_cast<Bytef*>(result.data()));
     return result;
+  }
+
+  /// Numbers of type Float64 or Float32.
+  std::vector<double> reals(StoredReal stored, std::size_t tuples, std::size_t components,
+                            Allowance& allowance) {
+    if (stored == StoredReal::float64) return values<double>(tuples, components, allowance);
+    const std::vector<float> rounded = values<float>(tuples, components, allowance);
+    allowance.take(rounded.size() * sizeof(double));
+    return {rounded.begin(), rounded.end()};
   }
 
   template <class T>
@@ -217,8 +226,8 @@ class GridReader {
         grid_.cell_data.push_back(data_array(tag, array, cells_));
         return;
       case Section::points:
-        require_type(tag, "Float64");
-        grid_.points = points_of(array.values<double>(points_, 3, allowance_));
+        grid_.stored_points = stored_real(tag, "Points", "Float64 or Float32");
+        grid_.points = points_of(array.reals(grid_.stored_points, points_, 3, allowance_));
         return;
       case Section::cells:
         read_cells(tag, array);
@@ -275,16 +284,21 @@ class GridReader {
         data.component_names.push_back(*std::move(name));
     }
     const auto components = static_cast<std::size_t>(data.components);
-    const std::string type = required_attribute(tag, "type");
-    if (type == "Float64") {
-      data.values = array.values<double>(tuples, components, allowance_);
-    } else if (type == "Int32") {
+    if (required_attribute(tag, "type") == "Int32") {
       data.values = array.values<std::int32_t>(tuples, components, allowance_);
     } else {
-      fail(fmt::format("array '{}' of type {}, Float64 or Int32 is needed", printable(data.name),
-                       printable(type)));
+      data.stored = stored_real(tag, data.name, "Float64, Float32 or Int32");
+      data.values = array.reals(data.stored, tuples, components, allowance_);
     }
     return data;
+  }
+
+  static StoredReal stored_real(std::string_view tag, const std::string& name, std::string_view needed) {
+    const std::string type = required_attribute(tag, "type");
+    if (type == "Float32") return StoredReal::float32;
+    if (type != "Float64")
+      fail(fmt::format("array '{}' of type {}, {} is needed", printable(name), printable(type), needed));
+    return StoredReal::float64;
   }
 
   std::string_view appended_;

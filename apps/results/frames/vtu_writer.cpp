@@ -56,6 +56,7 @@ void append_compressed(std::string& bytes, std::span<const std::byte> data) {
 struct PlacedArray {
   std::string element;
   std::span<const std::byte> values;
+  std::vector<float> rounded;  // that `values` refers to, or none
 };
 
 // The XML elements, and the arrays with their places in the appended bytes.
@@ -67,7 +68,17 @@ class VtuText {
   void add_array(std::string_view type, std::string_view attributes, std::span<const T> values) {
     pending_ +=
         fmt::format("        <DataArray type=\"{}\" {} format=\"appended\" offset=\"", type, attributes);
-    arrays_.push_back({std::exchange(pending_, "\"/>\n"), std::as_bytes(values)});
+    arrays_.push_back({std::exchange(pending_, "\"/>\n"), std::as_bytes(values), {}});
+  }
+
+  void add_reals(StoredReal stored, std::string_view attributes, std::span<const double> values) {
+    if (stored == StoredReal::float64) {
+      add_array<double>("Float64", attributes, values);
+    } else {
+      std::vector<float> rounded = to_float32(values);
+      add_array<float>("Float32", attributes, rounded);
+      arrays_.back().rounded = std::move(rounded);
+    }
   }
 
   void add_array(const DataArray& array) {
@@ -77,7 +88,7 @@ class VtuText {
       attributes += fmt::format(" ComponentName{}=\"{}\"", i, escape_xml(array.component_names[i]));
     }
     if (const auto* reals = std::get_if<std::vector<double>>(&array.values)) {
-      add_array<double>("Float64", attributes, *reals);
+      add_reals(array.stored, attributes, *reals);
     } else {
       add_array<std::int32_t>("Int32", attributes, std::get<std::vector<std::int32_t>>(array.values));
     }
@@ -195,8 +206,8 @@ std::string to_vtu(const UnstructuredGrid& grid) {
   add_data(text, "CellData", grid.cell_data);
   text.add("      <Points>\n");
   const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
-  text.add_array<double>("Float64", "Name=\"Points\" NumberOfComponents=\"3\"",
-                         {coordinates, 3 * grid.points.size()});
+  text.add_reals(grid.stored_points, "Name=\"Points\" NumberOfComponents=\"3\"",
+                 {coordinates, 3 * grid.points.size()});
   text.add("      </Points>\n      <Cells>\n");
   text.add_array<int>("Int32", "Name=\"connectivity\"", grid.connectivity);
   text.add_array<int>("Int32", "Name=\"offsets\"", grid.offsets);

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/results/frames/stored_real.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ashlar {
@@ -36,12 +37,14 @@ struct DataArray {
   int components = 1;                        ///< values of each point or cell, 1 to most_components
   std::vector<std::string> component_names;  ///< none, or one for each component
   std::variant<std::vector<double>, std::vector<std::int32_t>>
-      values;  ///< (#points or #cells x components), point after point
+      values;                               ///< (#points or #cells x components), point after point
+  StoredReal stored = StoredReal::float64;  ///< of doubles
 };
 
 /// Content of one file. Empty grids are valid: a frame without contacts has no points.
 struct UnstructuredGrid {
-  std::vector<Vector3> points;     ///< (#points), m
+  std::vector<Vector3> points;  ///< (#points), m
+  StoredReal stored_points = StoredReal::float64;
   std::vector<int> connectivity;   ///< point indices, cell after cell
   std::vector<int> offsets;        ///< (#cells), end of each cell in `connectivity`
   std::vector<VtkCellType> types;  ///< (#cells)

@@ -144,6 +144,7 @@ void read_output(TomlTableReader table, SceneOutput& output) {
   table.read_bool("curved", output.curved);
   table.read_bool("solid", output.solid);
   table.read_choice("format", output.format, frame_format_names);
+  table.read_choice("precision", output.precision, precision_names);
   std::vector<std::string> fields;
   if (!table.read_words("fields", fields, field_names)) return;
   for (const auto& [name, member] : field_names)

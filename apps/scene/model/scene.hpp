@@ -115,6 +115,8 @@ struct SceneOutput {
     vtu,     ///< a file for each frame and a .pvd file for each series
     vtkhdf,  ///< results.vtkhdf, one file for all frames
   };
+  /// Of real numbers in frames; tables have doubles always.
+  enum class Precision { of_single, of_double };
   std::optional<int> every;        ///< steps between frames, >= 1; exactly one of every and interval is set
   std::optional<double> interval;  ///< s between frames, > 0
   int history_every = 1;           ///< steps between rows of the history, >= 1
@@ -122,6 +124,7 @@ struct SceneOutput {
   bool curved = false;             ///< blocks as Lagrange cells; not with formulation incremental
   bool solid = false;              ///< blocks as volumes; not with formulation incremental
   Format format = Format::vtu;
+  Precision precision = Precision::of_single;
 };
 
 /// The whole scene.

@@ -340,6 +340,7 @@ Json to_json(const SceneOutput& output) {
   json["curved"] = output.curved;
   json["solid"] = output.solid;
   json["format"] = name_of(frame_format_names, output.format);
+  json["precision"] = name_of(precision_names, output.precision);
   return json;
 }
 

@@ -24,6 +24,8 @@ inline std::string table_content(const Hdf5File& file, const std::string& name) 
   switch (table.type) {
     case Hdf5Type::real64:
       return content + bytes_of(file.read<double>(name, 0, table.rows));
+    case Hdf5Type::real32:
+      return content + bytes_of(file.read<float>(name, 0, table.rows));
     case Hdf5Type::integer32:
       return content + bytes_of(file.read<std::int32_t>(name, 0, table.rows));
     case Hdf5Type::integer64:

@@ -96,6 +96,34 @@ TEST_F(VtkhdfFile, WhatIsAppendedIsReadBackBitForBit) {
   }
 }
 
+TEST_F(VtkhdfFile, SinglePrecisionIsReadAsItWasRounded) {
+  create();
+  const auto rounded = [](UnstructuredGrid grid) {
+    grid.stored_points = StoredReal::float32;
+    grid.point_data[0].stored = StoredReal::float32;
+    return grid;
+  };
+  UnstructuredGrid late = rounded(vertices(2, 0.1));
+  late.point_data.push_back({"late", 1, {}, std::vector<double>{0.3, 1e99}, StoredReal::float32});
+  append(path, 0, moved_triangle(0.1), rounded(vertices(2, 0.1)));
+  append(path, 1, moved_triangle(0.1), rounded(vertices(2, 0.1 + 1e-12)));
+  append(path, 2, moved_triangle(0.1), late);
+  EXPECT_THAT(integers("contacts/Steps/PointOffsets"), ElementsAre(0, 0, 0)) << "equal when rounded";
+  EXPECT_EQ(VtkhdfReader(path).read("blocks", 2).points[0].x(), 0.1);
+  const UnstructuredGrid grid = VtkhdfReader(path).read("contacts", 2);
+  EXPECT_EQ(grid.stored_points, StoredReal::float32);
+  EXPECT_EQ(grid.points[1].y(), 0.1F);
+  EXPECT_EQ(std::get<std::vector<double>>(grid.point_data[0].values)[1], 1.1F);
+  EXPECT_EQ(std::get<std::vector<double>>(grid.point_data[1].values),
+            (std::vector<double>{0.3F, std::numeric_limits<float>::max()}));
+  const UnstructuredGrid before = VtkhdfReader(path).read("contacts", 0);
+  EXPECT_TRUE(std::isnan(std::get<std::vector<double>>(before.point_data[1].values)[0]));
+  cut_vtkhdf(path, 1);
+  append(path, 1, moved_triangle(0.1), rounded(vertices(2, 0.1 + 1e-12)));
+  append(path, 2, moved_triangle(0.1), late);
+  EXPECT_EQ(to_vtu(VtkhdfReader(path).read("contacts", 2)), to_vtu(grid));
+}
+
 // Points of the blocks begin with a chunk of 64 rows each, unless they are those of the frame before.
 TEST_F(VtkhdfFile, WhatDoesNotChangeIsStoredOnce) {
   create();

@@ -51,6 +51,7 @@ TEST(SceneReader, FillsInDefaults) {
   EXPECT_EQ(scene.output.every, default_frame_distance);
   EXPECT_TRUE(scene.output.fields.stress);
   EXPECT_FALSE(scene.output.curved);
+  EXPECT_EQ(scene.output.precision, SceneOutput::Precision::of_single);
 }
 
 TEST(SceneReader, ReadsEveryWordAndOptionalKey) {
@@ -119,6 +120,7 @@ hull = { points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]] }
 interval = 0.25
 fields = ["velocity"]
 curved = true
+precision = "double"
 )";
   Diagnostics diagnostics;
   const Scene scene = parse_scene(text, "s.toml", {}, diagnostics);
@@ -162,6 +164,7 @@ curved = true
   EXPECT_EQ(std::get<SceneHull>(scene.block.at(2).shape).points.at(3), Vector3(0, 0, 1));
   EXPECT_EQ(scene.output.interval, 0.25);
   EXPECT_TRUE(scene.output.curved);
+  EXPECT_EQ(scene.output.precision, SceneOutput::Precision::of_double);
   EXPECT_FALSE(scene.output.every.has_value());
   EXPECT_FALSE(scene.output.fields.stress);
 }
