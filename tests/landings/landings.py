@@ -28,7 +28,7 @@ KINDS = {"deep": "a block is deeper in another than springs hold it and 1e-3 of 
 def run(scene, out, options):
     """Runs the program; returns its exit status (None: over the limit), its first error, and seconds."""
     begin = time.monotonic()
-    command = [options.program, "run", scene, "--out", out, "--threads", "1", "--quiet", "--set", 'output.precision="double"']
+    command = [options.program, "run", scene, "--out", out, "--threads", "1", "--quiet"]
     if options.every:
         command += ["--set", f"output.every={options.every}"]
     try:

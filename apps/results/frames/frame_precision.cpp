@@ -15,7 +15,10 @@ constexpr double rounding = std::numeric_limits<float>::epsilon() / 2.0;
 }  // namespace
 
 FramePrecision frame_precision(const SceneOutput& output, const std::vector<BlockModel>& blocks) {
-  if (output.precision == SceneOutput::Precision::of_double) return {};
+  const bool automatic = output.precision == SceneOutput::Precision::automatic;
+  if (output.precision == SceneOutput::Precision::of_double ||
+      (automatic && output.format == SceneOutput::Format::vtu))
+    return {};
   FramePrecision precision{StoredReal::float32, StoredReal::float64};
   double farthest = 0.0, smallest = std::numeric_limits<double>::infinity();
   for (const BlockModel& block : blocks) {

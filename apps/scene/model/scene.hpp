@@ -116,7 +116,11 @@ struct SceneOutput {
     vtkhdf,  ///< results.vtkhdf, one file for all frames
   };
   /// Of real numbers in frames; tables have doubles always.
-  enum class Precision { of_single, of_double };
+  enum class Precision {
+    automatic,  ///< single in results.vtkhdf, double in .vtu
+    of_single,
+    of_double
+  };
   std::optional<int> every;        ///< steps between frames, >= 1; exactly one of every and interval is set
   std::optional<double> interval;  ///< s between frames, > 0
   int history_every = 1;           ///< steps between rows of the history, >= 1
@@ -124,7 +128,7 @@ struct SceneOutput {
   bool curved = false;             ///< blocks as Lagrange cells; not with formulation incremental
   bool solid = false;              ///< blocks as volumes; not with formulation incremental
   Format format = Format::vtu;
-  Precision precision = Precision::of_single;
+  Precision precision = Precision::automatic;
 };
 
 /// The whole scene.

@@ -56,8 +56,10 @@ inline constexpr ChoiceNames<SceneCut::Spacing, 4> spacing_names = {
 inline constexpr ChoiceNames<SceneOutput::Format, 2> frame_format_names = {
     {{"vtu", SceneOutput::Format::vtu}, {"vtkhdf", SceneOutput::Format::vtkhdf}}};
 
-inline constexpr ChoiceNames<SceneOutput::Precision, 2> precision_names = {
-    {{"single", SceneOutput::Precision::of_single}, {"double", SceneOutput::Precision::of_double}}};
+inline constexpr ChoiceNames<SceneOutput::Precision, 3> precision_names = {
+    {{"auto", SceneOutput::Precision::automatic},
+     {"single", SceneOutput::Precision::of_single},
+     {"double", SceneOutput::Precision::of_double}}};
 
 inline constexpr ChoiceNames<SceneBolt::Anchorage, 2> anchorage_names = {
     {{"grouted", SceneBolt::Anchorage::grouted}, {"ends", SceneBolt::Anchorage::ends}}};

@@ -74,7 +74,7 @@ TEST_F(Answers, SlipIsTheWayAlongTheJoint) {
 TEST_F(Answers, JointFacesBearWhatThePairDoes) {
   scene(cube_on_floor("end_time = 0.2\ntime_step = 1e-3\ngravity = [5, 0, -8.660254037844386]\n",
                       "friction_angle = 10\ntensile_strength = 1\n", "",
-                      pair_measure + "[output]\nevery = 1000\nprecision = \"double\"\n"));
+                      pair_measure + "[output]\nevery = 1000\n"));
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   const UnstructuredGrid grid = read_vtu(folder_ / "out/frames/joints_0000200.vtu");
   const auto& area = required_values<double>(grid.cell_data, "area", 1);

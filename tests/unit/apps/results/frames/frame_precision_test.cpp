@@ -20,7 +20,9 @@ BlockModel cube_up_to(double x, Formulation formulation = Formulation::total) {
 }
 
 FramePrecision with_blocks(std::vector<BlockModel> blocks) {
-  return frame_precision(SceneOutput(), blocks);
+  SceneOutput output;
+  output.precision = SceneOutput::Precision::of_single;
+  return frame_precision(output, blocks);
 }
 
 // A number of single precision is within 2^-24 of the true one: 1e-4 m at 1e-4 * 2^24 = 1677.7 m.
@@ -35,6 +37,14 @@ TEST(FramePrecision, PlacesAreDoubleFarFromTheOrigin) {
 TEST(FramePrecision, PlacesOfIncrementalBlocksAreDouble) {
   EXPECT_EQ(with_blocks({cube_up_to(1.0), cube_up_to(3.0, Formulation::incremental)}).places,
             StoredReal::float64);
+}
+
+TEST(FramePrecision, DependsOnTheFormatUnlessItIsGiven) {
+  SceneOutput output;
+  EXPECT_EQ(frame_precision(output, {cube_up_to(1.0)}).fields, StoredReal::float64);
+  EXPECT_EQ(frame_precision(output, {cube_up_to(1.0)}).places, StoredReal::float64);
+  output.format = SceneOutput::Format::vtkhdf;
+  EXPECT_EQ(frame_precision(output, {cube_up_to(1.0)}).fields, StoredReal::float32);
 }
 
 TEST(FramePrecision, IsDoubleOnRequest) {

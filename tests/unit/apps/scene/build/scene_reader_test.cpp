@@ -51,7 +51,7 @@ TEST(SceneReader, FillsInDefaults) {
   EXPECT_EQ(scene.output.every, default_frame_distance);
   EXPECT_TRUE(scene.output.fields.stress);
   EXPECT_FALSE(scene.output.curved);
-  EXPECT_EQ(scene.output.precision, SceneOutput::Precision::of_single);
+  EXPECT_EQ(scene.output.precision, SceneOutput::Precision::automatic);
 }
 
 TEST(SceneReader, ReadsEveryWordAndOptionalKey) {

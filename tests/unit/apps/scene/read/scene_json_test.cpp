@@ -40,7 +40,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
        "load": [{"plane": {"point": [4.0, 0.0, 0.0], "normal": [1.0, 0.0, 0.0]}, "traction": [0.0, 0.0, -1e5]}]}],
     "measure": [{"name": "tip", "block": "B", "point": [4.0, 0.5, 0.5]}],
     "output": {"every": 5, "history_every": 1, "fields": ["displacement", "velocity", "stress"], "curved": false,
-               "solid": false, "format": "vtu", "precision": "single"}
+               "solid": false, "format": "vtu", "precision": "auto"}
   })"));
 }
 
@@ -61,7 +61,7 @@ TEST(SceneJson, HoldsWhatIsNotDefault) {
   EXPECT_EQ(json["output"],
             nlohmann::json::parse(
                 R"({"interval": 0.5, "history_every": 1, "fields": [], "curved": true, "solid": false,
-                    "format": "vtu", "precision": "single"})"));
+                    "format": "vtu", "precision": "auto"})"));
   EXPECT_EQ(json["block"][0]["sphere"],
             nlohmann::json::parse(R"({"center": [0.0, 0.0, 0.0], "radius": 1.0, "subdivisions": 3})"));
   EXPECT_EQ(json["block"][0]["rotate"],
