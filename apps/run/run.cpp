@@ -238,6 +238,14 @@ GoalValues Run::goals_of_measures() const {
   return [this](const Simulation& now) { return goals_of(now, measures_); };
 }
 
+/// The last state is that of the answer now.
+void Run::estimate_measures() {
+  if (scene().analysis.type == SceneAnalysis::Type::statics && status_ == RunStatus::equilibrium &&
+      !whole().analysis.accuracy)
+    measure_errors_ = {goal_errors(simulation(), goals_of_measures()),
+                       sub_face_errors(simulation(), goals_of_measures())};
+}
+
 void Run::take_iteration() {
   if (!observers_.go_on()) return interrupt();
   Simulation& simulation = built_.simulation;
@@ -314,6 +322,7 @@ void Run::end_stage(RunStatus status, std::string message) {
 /// Observers end in reverse order: the last state is saved before the summary tells the end.
 void Run::end(RunStatus status) {
   status_ = stage_status_ = status;
+  estimate_measures();
   for (auto observer = observers_.all().rbegin(); observer != observers_.all().rend(); ++observer) {
     try {
       (*observer)->run_ends(*this);

@@ -19,6 +19,7 @@
 
 #include "apps/results/folder/accuracy_state.hpp"
 #include "apps/results/folder/contact_changes.hpp"
+#include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_clock.hpp"
@@ -147,6 +148,8 @@ class Run {
   [[nodiscard]] LargestValues largest() const;
   /// Errors of the orders of blocks: of a dynamic run at present, of a static analysis in equilibrium. Empty: others
   [[nodiscard]] std::vector<OrderError> order_errors() const;
+  /// Errors of the measures of a static analysis that has ended in equilibrium, without analysis.accuracy. Empty: others
+  [[nodiscard]] const MeasureErrors& measure_errors() const { return measure_errors_; }
   /// Choices for analysis.accuracy; null: the scene has none, or the run has not begun
   [[nodiscard]] const AccuracyState* accuracy() const {
     return chosen_ && whole().analysis.accuracy ? &accuracy_ : nullptr;
@@ -182,6 +185,7 @@ class Run {
   void reset_displacement();
   void take_step();
   [[nodiscard]] GoalValues goals_of_measures() const;
+  void estimate_measures();
   void take_iteration();
   void draw_onset();
   bool accept_step();
@@ -213,6 +217,7 @@ class Run {
   std::vector<FinishedStage> finished_;  ///< those before the present stage
   RunStatus stage_status_ = RunStatus::completed;
   std::vector<std::vector<double>> rows_;
+  MeasureErrors measure_errors_;
   ContactChanges changes_;  ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;

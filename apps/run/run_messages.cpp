@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <ostream>
@@ -73,6 +74,24 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
       share);
 }
 
+/// Warns of measures that change much with higher orders, if the order of a block was raised: blocks of order 1 are
+/// chosen for their motion.
+void warn_of_measures(const Run& run, std::ostream& err) {
+  const std::vector<BlockModel>& blocks = run.simulation().blocks();
+  if (std::none_of(blocks.begin(), blocks.end(),
+                   [](const BlockModel& block) { return !block.fixed() && block.order() > 1; }))
+    return;
+  for (std::size_t k = 0; k < run.measure_errors().orders.size(); ++k) {
+    const double error = run.measure_errors().orders[k].relative;
+    if (!(error > ordinary_order_error)) continue;
+    err << fmt::format(
+        "ashlar: warning: the estimated error of measure {} by the orders of blocks is {:.0f} %: higher "
+        "orders "
+        "or smaller tied blocks are needed, or analysis.accuracy, which chooses them\n",
+        run.scene().measure[k].name, 100.0 * error);
+  }
+}
+
 /// Warns of orders too low for the deformation of their blocks in equilibrium. In motion the estimate is that of one
 /// moment, which an impact makes large; it is in the summary.
 void warn_of_order(const Run& run, std::ostream& err) {
@@ -86,6 +105,7 @@ void warn_of_order(const Run& run, std::ostream& err) {
     return;
   }
   if (run.status() != RunStatus::equilibrium) return;
+  warn_of_measures(run, err);
   const std::vector<OrderError> errors = run.order_errors();
   const std::optional<OrderError> coarse = coarse_block(simulation, errors);
   if (!coarse) return;

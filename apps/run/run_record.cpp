@@ -169,6 +169,7 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
     summary["error"] = accuracy_summary(whole(), simulation(), *accuracy());
   else if (const std::vector<OrderError> errors = order_errors(); !errors.empty())
     summary["error"] = error_summary(simulation(), errors);
+  if (!measure_errors_.empty()) add_measure_errors(scene(), measure_errors_, summary["error"]);
   add_answer(summary, answer_, whole().analysis, simulation());
   return json_text(summary, 2) + "\n";
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "geometry/index.hpp"
 #include "solver/accuracy/goal_distance.hpp"
@@ -93,6 +95,21 @@ double difference_of_blocks(const Simulation& simulation, const MotionScales& sc
   return scales.displacement > 0.0 ? std::max(of_energy, displacement / scales.displacement) : of_energy;
 }
 
+/// Of any block, root of the mean square, m/s.
+double largest_speed(const Simulation& simulation) {
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
+    if (simulation.system().moving()[k])
+      fastest = std::max(fastest, mean_length(simulation.blocks()[k], simulation.states()[k].velocity));
+  return fastest;
+}
+
+/// Step in which an impact is placed within the accuracy, s; infinite without impacts.
+double impact_step(const MotionRequest& request, const MotionScales& scales) {
+  return scales.impact_speed > 0.0 ? request.accuracy * scales.displacement / scales.impact_speed
+                                   : std::numeric_limits<double>::infinity();
+}
+
 int order_of(Integrator integrator) {
   return integrator == Integrator::dda ? 1 : 2;
 }
@@ -107,11 +124,16 @@ class StepTests {
         goals_(goals),
         state_(state),
         power_(std::exp2(order_of(simulation.system().settings().integrator))),
+        longest_(std::min(request.longest_step, impact_step(request, state.scales))),
+        shortest_(state.impacts > 0 && state.scales.impact_speed > 0.0
+                      ? impact_step(request, state.scales) / 8.0
+                      : 0.0),
         marks_(contact_marks(simulation)) {}
 
   /// Chooses the length of the next step.
   void choose() {
-    const double step = simulation_.system().settings().time_step;
+    double step = simulation_.system().settings().time_step;
+    while (step > longest_) take(step *= 0.5, state_.local_error);
     const std::optional<double> error = local_error(step);
     if (!error) return;
     state_.local_error = *error;
@@ -146,7 +168,7 @@ class StepTests {
   void halve(double step, double error) {
     constexpr int most_halvings = 4;
     double shorter = step, left = error;
-    for (int k = 0; k < most_halvings && left > allowed(shorter); ++k) {
+    for (int k = 0; k < most_halvings && left > allowed(shorter) && 0.5 * shorter >= shortest_; ++k) {
       const std::optional<double> next = local_error(0.5 * shorter);
       if (!next) break;
       shorter *= 0.5;
@@ -160,14 +182,15 @@ class StepTests {
     } else if (shorter < step) {
       take(shorter, left);
     }
-    if (left > allowed(shorter) && state_.local_error > 0.0) state_.since_test = test_interval;
+    if (left > allowed(shorter) && state_.local_error > 0.0 && 0.5 * shorter >= shortest_)
+      state_.since_test = test_interval;
   }
 
   void double_if_enough(double step, double error) {
     // Twice the step has 2^(p + 1) times the error and twice the share.
     constexpr double margin = 0.7;
     constexpr int soon = 4;
-    if (power_ * error > margin * allowed(step) || 2.0 * step > request_.longest_step) return;
+    if (power_ * error > margin * allowed(step) || 2.0 * step > longest_) return;
     take(2.0 * step, 2.0 * power_ * error);
     state_.since_test = test_interval - soon;
   }
@@ -176,55 +199,109 @@ class StepTests {
   const MotionRequest& request_;
   const GoalValues& goals_;
   MotionAccuracyState& state_;
-  double power_;  ///< 2^p
+  double power_;     ///< 2^p
+  double longest_;   ///< s
+  double shortest_;  ///< s
   std::vector<int> marks_;
+};
+
+/// Largest values of the steps of a pilot.
+class PilotRecord {
+ public:
+  PilotRecord(const Simulation& simulation, const GoalValues& goals)
+      : simulation_(simulation), goals_(goals), start_(simulation.states()) {
+    run_.round.energies.assign(start_.size(), 0.0);
+    run_.round.lacks.assign(start_.size(), -1.0);
+    note_values();
+  }
+
+  /// After a step.
+  void note() {
+    std::vector<int> marks = contact_marks(simulation_);
+    const double speed = largest_speed(simulation_);
+    // Contacts of blocks as placed are found in the first step.
+    if (any_step_ && marks != marks_) changes_.push_back({run_.round, speed});
+    any_step_ = true;
+    marks_ = std::move(marks);
+    fastest_ = std::max(fastest_, speed);
+    note_values();
+  }
+
+  [[nodiscard]] PilotRun result() const {
+    constexpr double at_speed = 0.1;
+    PilotRun result = run_;
+    const auto impact = std::find_if(changes_.begin(), changes_.end(), [this](const Change& change) {
+      return change.speed > at_speed * fastest_;
+    });
+    if (impact == changes_.end()) return result;
+    result.round = impact->before;
+    result.scales.impact_speed = fastest_;
+    return result;
+  }
+
+ private:
+  /// A step in which contacts changed.
+  struct Change {
+    AccuracyRound before;
+    double speed;  ///< m/s
+  };
+
+  void note_values() {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < start_.size(); ++k) {
+      if (!simulation_.system().present(static_cast<int>(k)) || simulation_.blocks()[k].fixed()) continue;
+      const BlockState& now = simulation_.states()[k];
+      const double energy = energy_of(simulation_.blocks()[k], now);
+      run_.round.energies[k] = std::max(run_.round.energies[k], energy);
+      sum += energy;
+      run_.scales.displacement = std::max(
+          run_.scales.displacement, mean_length(simulation_.blocks()[k], now.position - start_[k].position));
+    }
+    run_.scales.energy = std::max(run_.scales.energy, sum);
+    note_goals();
+    constexpr int order_interval = 16;  // an estimate costs as much as some steps
+    if (simulation_.steps() % order_interval != 0) return;
+    for (const OrderError& error : order_errors(simulation_))
+      run_.round.lacks[at(error.block)] = std::max(run_.round.lacks[at(error.block)], error.lacks);
+  }
+
+  void note_goals() {
+    const std::vector<Goal> values = goals_(simulation_);
+    run_.scales.goals.resize(values.size(), 0.0);
+    run_.scales.rates.resize(values.size(), 0.0);
+    run_.round.goals.resize(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      run_.scales.goals[k] = std::max(run_.scales.goals[k], goal_length(values[k].values));
+      run_.scales.rates[k] = std::max(run_.scales.rates[k], goal_length(values[k].rates));
+      run_.round.goals[k].resize(values[k].values.size(), 0.0);
+      for (std::size_t n = 0; n < values[k].values.size(); ++n)
+        run_.round.goals[k][n] = std::max(run_.round.goals[k][n], std::abs(values[k].values[n]));
+    }
+  }
+
+  const Simulation& simulation_;
+  const GoalValues& goals_;
+  std::vector<BlockState> start_;
+  PilotRun run_;
+  std::vector<Change> changes_;
+  std::vector<int> marks_;
+  double fastest_ = 0.0;  ///< m/s
+  bool any_step_ = false;
 };
 
 }  // namespace
 
 std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const GoalValues& goals,
                                   const std::function<bool()>& goes_on) {
-  constexpr int order_interval = 16;  // an estimate costs as much as some steps
   const SimulationSnapshot before = simulation.snapshot();
-  const std::vector<BlockState> start = simulation.states();
-  PilotRun run;
-  run.round.energies.assign(start.size(), 0.0);
-  run.round.lacks.assign(start.size(), -1.0);
-  const auto note = [&] {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < start.size(); ++k) {
-      if (!simulation.system().present(static_cast<int>(k)) || simulation.blocks()[k].fixed()) continue;
-      const BlockState& now = simulation.states()[k];
-      const double energy = energy_of(simulation.blocks()[k], now);
-      run.round.energies[k] = std::max(run.round.energies[k], energy);
-      sum += energy;
-      run.scales.displacement = std::max(
-          run.scales.displacement, mean_length(simulation.blocks()[k], now.position - start[k].position));
-    }
-    run.scales.energy = std::max(run.scales.energy, sum);
-    const std::vector<Goal> values = goals(simulation);
-    run.scales.goals.resize(values.size(), 0.0);
-    run.scales.rates.resize(values.size(), 0.0);
-    run.round.goals.resize(values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      run.scales.goals[k] = std::max(run.scales.goals[k], goal_length(values[k].values));
-      run.scales.rates[k] = std::max(run.scales.rates[k], goal_length(values[k].rates));
-      run.round.goals[k].resize(values[k].values.size(), 0.0);
-      for (std::size_t n = 0; n < values[k].values.size(); ++n)
-        run.round.goals[k][n] = std::max(run.round.goals[k][n], std::abs(values[k].values[n]));
-    }
-    if (simulation.steps() % order_interval != 0) return;
-    for (const OrderError& error : order_errors(simulation))
-      run.round.lacks[at(error.block)] = std::max(run.round.lacks[at(error.block)], error.lacks);
-  };
-  note();
+  PilotRecord record(simulation, goals);
   bool goes = true;
   while (!simulation.reached(end_time) && (goes = goes_on())) {
     if (simulation.step(end_time) != StepStatus::accepted) break;
-    note();
+    record.note();
   }
   simulation.restore(before);
-  return goes ? std::optional(std::move(run)) : std::nullopt;
+  return goes ? std::optional(record.result()) : std::nullopt;
 }
 
 void choose_step(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,
@@ -243,13 +320,9 @@ void note_step(const Simulation& simulation, MotionAccuracyState& state) {
   state.error += state.local_error * std::min(share, 1.0);
   if (contact_marks(simulation) == state.contact_marks) return;
   ++state.impacts;
-  double fastest = 0.0;
-  for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
-    if (simulation.system().moving()[k])
-      fastest = std::max(fastest, mean_length(simulation.blocks()[k], simulation.states()[k].velocity));
   if (state.scales.displacement > 0.0)
-    state.impact_error =
-        std::max(state.impact_error, fastest * simulation.report().step / state.scales.displacement);
+    state.impact_error = std::max(
+        state.impact_error, largest_speed(simulation) * simulation.report().step / state.scales.displacement);
 }
 
 }  // namespace ashlar

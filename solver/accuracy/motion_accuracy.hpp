@@ -12,8 +12,11 @@
 //
 // An error that in four halvings falls no faster than the step is the tolerance of contact or rounding: the step stays.
 // A step in which contacts change is of first order with any integrator and tells nothing about its neighbours: it is
-// not used. Such steps are counted, and the largest distance that a block moved in one of them is the error of the
-// place of an impact.
+// not used. Such steps are counted, and the largest distance v h that a block moved in one of them is the error of the
+// place of an impact. If contacts change at speed in the pilot, a step is at most so long that this error is within the
+// accuracy, h_i; after the first impact it is at least h_i / 8: shorter steps would resolve vibrations of a motion whose
+// place is not known better. Orders are then chosen by the motion before the first impact, as each order changes what
+// follows.
 //
 // Notes: notes/accuracy.md.
 #pragma once
@@ -34,6 +37,8 @@ struct MotionScales {
   double displacement = 0.0;  ///< m, root of the mean square over a block, of the block that moves most
   std::vector<double> goals;  ///< largest length of each goal's values
   std::vector<double> rates;  ///< largest length of each goal's rates
+  /// m/s, largest of any block, root of the mean square, if contacts change at speed; 0: they do not
+  double impact_speed = 0.0;
 };
 
 /// State of the choice, for checkpoints.
@@ -56,10 +61,11 @@ struct MotionRequest {
   double end_time = 0.0;      ///< s, of the analysis, which starts at 0
 };
 
-/// Largest values of a motion, over all steps.
+/// Largest values of a motion.
 struct PilotRun {
-  MotionScales scales;
-  AccuracyRound round;  ///< by component of a goal and by block
+  MotionScales scales;  ///< of all steps
+  /// By component of a goal and by block, of the steps before contacts change at a tenth of the largest speed or more
+  AccuracyRound round;
 };
 
 /// Runs to the end, in steps of the settings, and takes it back. A step that cannot be taken ends it.

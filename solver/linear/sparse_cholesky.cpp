@@ -98,6 +98,9 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
   }
   self.factored = false;
   self.matrix = matrix;
+  // Supports may leave a block of low order no motion.
+  self.factored = matrix.size == 0;
+  if (self.factored) return FactorStatus::success;
   cholmod_sparse view = self.view();
   if (!same_pattern) {
     cholmod_free_factor(&self.factor, &self.common);
@@ -120,6 +123,7 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
 Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& right_side, bool refined) {
   Implementation& self = *implementation_;
   if (!self.factored) throw std::logic_error("solve before a successful factorize");
+  if (right_side.size() == 0) return right_side;
   ++self.counts.solves;
   Eigen::VectorXd solution = self.solve_once(right_side);
   if (!refined) return solution;

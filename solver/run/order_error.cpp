@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "geometry/index.hpp"
 #include "mechanics/block/order_change.hpp"
@@ -21,6 +22,18 @@ constexpr int further_orders = 2;
 
 double relative_of(double lacks, double energy) {
   return lacks > 0.0 ? std::sqrt(lacks / (energy + lacks)) : 0.0;
+}
+
+/// Empty if the shape or the material of the block excludes the order, or if it is that of the block.
+std::optional<BlockModel> allowed_order(const BlockModel& block, int order) {
+  if (order <= block.order()) return std::nullopt;
+  try {
+    return block.with_order(order);
+  } catch (const OrderTooHigh&) {
+    return std::nullopt;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
 }
 
 /// Forces at material points of a block.
@@ -55,23 +68,18 @@ std::vector<PointForces> contact_forces(const Simulation& simulation) {
   return forces;
 }
 
-/// The part of a force on functions of the higher order that those of the lower one do not have, in the unknowns.
-Eigen::VectorXd higher_part(const BlockModel& low, const BlockModel& high, const Eigen::MatrixX3d& force) {
-  const Eigen::Index shared = low.basis().size();
-  Eigen::MatrixX3d rest = high.space().expand(high.space().restrict(force));
-  rest.topRows(shared) -= low.space().expand(low.space().restrict(Eigen::MatrixX3d(force.topRows(shared))));
-  return high.space().restrict(rest);
-}
-
-OrderError error_of(const Simulation& simulation, int index, const PointForces& contact) {
+/// Empty: the shape of the block allows no higher order.
+std::optional<OrderError> error_of(const Simulation& simulation, int index, const PointForces& contact) {
   const BlockModel& block = simulation.blocks()[at(index)];
   const BlockState& state = simulation.states()[at(index)];
-  const BlockModel high = block.with_order(std::min(block.order() + further_orders, largest_order(block)));
+  const std::optional<BlockModel> higher = with_further_orders(block);
+  if (!higher) return std::nullopt;
+  const BlockModel& high = *higher;
   const Eigen::MatrixX3d position = change_order(block, state, high).state.position;
   const ElasticResponse elastic = high.elastic(position);
   const Vector3 gravity = simulation.system().settings().gravity_at(simulation.time());
   const Eigen::MatrixX3d outer = high.external_force(gravity, simulation.time()) + contact.on(high.basis());
-  const Eigen::VectorXd residual = higher_part(block, high, outer - elastic.force);
+  const Eigen::VectorXd residual = part_on_new_functions(block, high, outer - elastic.force);
   OrderError error{index, block.elastic(state.position).energy, 0.0};
   // Sums of forces are rounded; a block without them has no error.
   constexpr double rounding = 1e-11;
@@ -91,23 +99,46 @@ double OrderError::relative() const {
   return relative_of(lacks, energy);
 }
 
+std::optional<BlockModel> with_further_orders(const BlockModel& block) {
+  if (block.fixed() || block.rigid() || block.incremental() != nullptr || block.dashpots() != nullptr)
+    return std::nullopt;
+  const int largest = largest_order(block);
+  const int wanted = std::min(block.order() + further_orders, largest);
+  std::optional<BlockModel> next = allowed_order(block, wanted);
+  for (int order = wanted - 1; !next && order > block.order(); --order) next = allowed_order(block, order);
+  for (int order = wanted + 1; next && next->unknowns() == 0 && order <= largest; ++order)
+    next = allowed_order(block, order);
+  return next;
+}
+
+Eigen::VectorXd part_on_new_functions(const BlockModel& low, const BlockModel& high,
+                                      const Eigen::MatrixX3d& force) {
+  const Eigen::Index shared = low.basis().size();
+  Eigen::MatrixX3d rest = high.space().expand(high.space().restrict(force));
+  rest.topRows(shared) -= low.space().expand(low.space().restrict(Eigen::MatrixX3d(force.topRows(shared))));
+  return high.space().restrict(rest);
+}
+
 std::vector<OrderError> order_errors(const Simulation& simulation) {
   std::set<int> bolted;
   for (const Bolt& bolt : simulation.system().bolts())
     for (const BoltSpan& span : bolt.chain.shape().pieces()) bolted.insert(span.block);
-  std::vector<OrderError> errors;
+  std::vector<int> asked;
   for (int k = 0; k < static_cast<int>(simulation.blocks().size()); ++k) {
     const BlockModel& block = simulation.blocks()[at(k)];
     if (!simulation.system().moving()[at(k)] || block.rigid() || block.incremental() != nullptr ||
         block.quiet() || block.driven() || block.initial_stress() || simulation.system().is_tied(k) ||
         block.order() >= largest_order(block) || bolted.contains(k))
       continue;
-    errors.push_back({k});
+    asked.push_back(k);
   }
   const std::vector<PointForces> forces = contact_forces(simulation);
-  parallel_for(simulation.system().settings().threads, errors.size(), [&](std::size_t k) {
-    errors[k] = error_of(simulation, errors[k].block, forces[at(errors[k].block)]);
-  });
+  std::vector<std::optional<OrderError>> found(asked.size());
+  parallel_for(simulation.system().settings().threads, asked.size(),
+               [&](std::size_t k) { found[k] = error_of(simulation, asked[k], forces[at(asked[k])]); });
+  std::vector<OrderError> errors;
+  for (const std::optional<OrderError>& error : found)
+    if (error) errors.push_back(*error);
   return errors;
 }
 

@@ -10,11 +10,13 @@
 // Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
 // the contacts and errors of their forces are not in it.
 //
-// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order, and those with ties, bolts
+// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order or whose shape allows no higher one,
+// and those with ties, bolts
 // or quiet faces, whose forces are not recorded, with supports that move, or with initial stress, whose energy is not
 // that of their deformation.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/run/simulation.hpp"
@@ -32,6 +34,16 @@ struct OrderError {
 
 /// In the order of the blocks. After a step or an iteration, at its contact forces.
 [[nodiscard]] std::vector<OrderError> order_errors(const Simulation& simulation);
+
+/// The block with the functions of the next two orders, or of the next one where its shape does not allow two; where its
+/// supports leave these no motion, of the first order that has any. Empty: none is allowed, or the block is fixed, rigid,
+/// incremental or has dashpots.
+[[nodiscard]] std::optional<BlockModel> with_further_orders(const BlockModel& block);
+
+/// The part of a force on functions of the higher order that those of the lower one do not have. @param low,high one
+/// block in two orders. @param force (p of high, 3). @return (unknowns of high)
+[[nodiscard]] Eigen::VectorXd part_on_new_functions(const BlockModel& low, const BlockModel& high,
+                                                    const Eigen::MatrixX3d& force);
 
 /// All blocks together; 0 if there are none or none deforms. @return as OrderError::relative
 [[nodiscard]] double relative_error(const std::vector<OrderError>& errors);

@@ -10,29 +10,18 @@
 #include <limits>
 #include <numbers>
 
+#include "apps/program/study/error_time_problems.hpp"
 #include "apps/program/study/orders_study.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
 #include "apps/results/system/this_process.hpp"
-#include "apps/scene/model/scene_analysis.hpp"
-#include "solver/accuracy/motion_accuracy.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar {
 namespace {
 
-constexpr std::array<const char*, 4> problem_names = {"incline", "swelling", "tumbling", "cantilever"};
+constexpr std::array<const char*, 8> problem_names = {"incline", "swelling", "tumbling", "cantilever",
+                                                      "plate",   "sphere",   "rocking",  "bars"};
 constexpr std::array<const char*, 3> integrator_names = {"dda", "average", "alpha"};
-
-/// Settings of a run.
-struct ErrorTimeSetting {
-  int order = 1;
-  Integrator integrator = Integrator::dda;
-  bool springs = false;  ///< contact by springs instead of multipliers
-  bool incremental = false;
-  double time_step = 0.0;
-  double accuracy = 0.0;       ///< > 0: the step, or in statics the order, is chosen for it
-  double* estimate = nullptr;  ///< receives the estimate of such a run, if not null
-};
 
 SimulationSettings settings_of(const ErrorTimeSetting& setting, const Vector3& gravity) {
   SimulationSettings settings;
@@ -46,32 +35,6 @@ BlockDefinition block_of(const ErrorTimeSetting& setting, Polyhedron solid, cons
   BlockDefinition block = define_block(std::move(solid), material, setting.order);
   if (setting.incremental) block.formulation = Formulation::incremental;
   return block;
-}
-
-const std::function<bool()> always = [] { return true; };
-const GoalValues energy_of_blocks = [](const Simulation&) { return std::vector<Goal>(); };
-
-bool goes_to(Simulation& simulation, double time) {
-  while (!simulation.reached(time)) {
-    if (simulation.step(time) != StepStatus::accepted) return false;
-  }
-  return true;
-}
-
-/// The same with the step chosen for an accuracy, as a run does.
-bool goes_to(Simulation& simulation, double time, const ErrorTimeSetting& setting) {
-  if (setting.accuracy == 0.0) return goes_to(simulation, time);
-  simulation.set_time_step(time / automatic_steps);
-  const std::optional<PilotRun> pilot = pilot_run(simulation, time, energy_of_blocks, always);
-  MotionAccuracyState state;
-  state.scales = pilot->scales;
-  while (!simulation.reached(time)) {
-    choose_step(simulation, {setting.accuracy, time / 16.0, time}, energy_of_blocks, state);
-    if (simulation.step(time) != StepStatus::accepted) return false;
-    note_step(simulation, state);
-  }
-  if (setting.estimate != nullptr) *setting.estimate = state.error + state.noise;
-  return true;
 }
 
 double incline_error(const ErrorTimeSetting& setting) {
@@ -88,7 +51,7 @@ double incline_error(const ErrorTimeSetting& setting) {
       scene.add(block_of(setting, Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2000, 1e8, 0.2}));
   Simulation simulation = scene.build();
   const Vector3 start = centroid(simulation, cube);
-  if (!goes_to(simulation, time, setting)) return failed_run;
+  if (!runs_to(simulation, time, setting)) return failed_run;
   const double way = 0.5 * gravity * time * time * (std::sin(angle) - tangent_of(20.0) * std::cos(angle));
   return std::abs((centroid(simulation, cube) - start).norm() / way - 1.0);
 }
@@ -109,7 +72,7 @@ double swelling_error(const ErrorTimeSetting& setting) {
   SimulationSnapshot snapshot = simulation.snapshot();
   snapshot.run.states[0].velocity = amplitude * frequency * field;
   simulation.restore(snapshot);
-  if (!goes_to(simulation, 5.0 * period, setting)) return failed_run;
+  if (!runs_to(simulation, 5.0 * period, setting)) return failed_run;
   const PointMotion corner = simulation.blocks()[0].motion_of(simulation.states()[0], {0.5, 0.5, 0.5});
   const double strain = corner.displacement.x() / 0.5 / amplitude;
   const double rate = corner.velocity.x() / 0.5 / (amplitude * frequency);
@@ -153,7 +116,7 @@ double tumbling_error(const ErrorTimeSetting& setting) {
   for (int axis = 0; axis < 3; ++axis) box.followed.emplace_back(half_sides[axis] * Vector3::Unit(axis));
   Simulation simulation =
       lone_block(std::move(box), {Vector3::Zero(), tumble}, settings_of(setting, Vector3::Zero()));
-  if (!goes_to(simulation, tumbling_time, setting)) return failed_run;
+  if (!runs_to(simulation, tumbling_time, setting)) return failed_run;
   Eigen::Matrix3d turn;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 corner = half_sides[axis] * Vector3::Unit(axis);
@@ -161,6 +124,11 @@ double tumbling_error(const ErrorTimeSetting& setting) {
         simulation.blocks()[0].motion_of(simulation.states()[0], corner).place / half_sides[axis];
   }
   return (turn - reference).norm();
+}
+
+/// True if orders are compared, not steps.
+bool is_static(int problem) {
+  return problem >= 4 && problem <= 6;
 }
 
 /// Adds runs to the table and the picture.
@@ -209,13 +177,14 @@ class ErrorTimeCurves {
 
   /// Runs whose step, or in statics the order, is chosen.
   void over_accuracies(int problem, ErrorTimeSetting setting,
-                       const std::function<double(const ErrorTimeSetting&)>& error_of) {
-    start(problem, problem == 4
+                       const std::function<double(const ErrorTimeSetting&)>& error_of, int most = 4) {
+    start(problem, is_static(problem)
                        ? "chosen order"
                        : fmt::format("chosen step, order {}, {}", setting.order,
                                      integrator_names.at(static_cast<std::size_t>(setting.integrator))));
     setting.accuracy = 0.1;
-    for (int k = 0; k < size_.accuracies; ++k, setting.accuracy *= 0.1) add(setting, error_of);
+    for (int k = 0; k < std::min(size_.accuracies, most); ++k, setting.accuracy *= 0.1)
+      add(setting, error_of);
   }
 
  private:
@@ -257,9 +226,11 @@ std::vector<std::string> find_fronts(StudyResult& result) {
       const double step = (*row)[of_step];
       const std::string& curve = result.plot.series[static_cast<std::size_t>((*row)[of_curve]) - 1].name;
       const std::string chosen = (*row)[of_accuracy] > 0.0 ? fmt::format("asked {:.0e}", (*row)[of_accuracy])
-                                 : problem == 4
-                                     ? fmt::format("order {}", (*row)[of_order])
-                                     : fmt::format("step {:.3g}{}", step, problem == 2 ? " periods" : " s");
+                                 : is_static(problem)      ? fmt::format("order {}", (*row)[of_order])
+                                                           : fmt::format("step {:.3g}{}", step,
+                                                                    problem == 2   ? " periods"
+                                                                         : problem == 8 ? " durations"
+                                                                                        : " s");
       front.push_back(
           fmt::format("{}, {}: {:.1e} in {:.2g} ms", curve, chosen, least, 1e3 * (*row)[of_seconds]));
     }
@@ -336,6 +307,25 @@ StudyResult study_error_time() {
   return study_error_time(ErrorTimeStudySize{});
 }
 
+namespace {
+
+/// Those of error_time_problems.hpp.
+void add_further_problems(const ErrorTimeStudySize& size, ErrorTimeCurves& curves) {
+  curves.start(5, "one block");
+  for (int order = 1; order <= std::min(8, 4 * size.steps); ++order) curves.add({order}, plate_error);
+  curves.over_accuracies(5, {}, plate_error, 2);
+  curves.start(6, "graded tied blocks");
+  for (int order = 1; order <= std::min(2, size.steps - 1); ++order) curves.add({order}, hertz_error);
+  if (size.steps > 2) curves.over_accuracies(6, {}, hertz_error, 1);
+  for (const Integrator integrator : {Integrator::dda, Integrator::generalized_alpha})
+    curves.over_steps(7, {1, integrator, true}, 4e-3, rocking_error);
+  for (const Integrator integrator : {Integrator::dda, Integrator::generalized_alpha})
+    curves.over_steps(8, {3, integrator, true}, 1.0 / 12.5, bar_impact_error);
+  curves.over_accuracies(8, {3, Integrator::generalized_alpha, true}, bar_impact_error, 2);
+}
+
+}  // namespace
+
 StudyResult study_error_time(const ErrorTimeStudySize& size) {
   StudyResult result;
   result.columns = {"problem",   "curve", "order",   "integrator", "springs",  "incremental",
@@ -367,6 +357,7 @@ StudyResult study_error_time(const ErrorTimeStudySize& size) {
   for (int order = 1; order <= 8; ++order) curves.add({order}, cantilever_of);
   for (const AskedProblem& asked : asked_problems)
     curves.over_accuracies(asked.problem, {asked.order, asked.integrator}, asked.error_of);
+  add_further_problems(size, curves);
   result.findings = find_fronts(result);
   for (std::string& sentence : compare_chosen(result)) result.findings.push_back(std::move(sentence));
   // Deformable blocks stretch as they rotate: they converge to another motion, which differs by 2e-4.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "apps/program/verify/verification_contacts.hpp"
+#include "solver/accuracy/goal_error.hpp"
 
 namespace ashlar {
 namespace {
@@ -94,8 +95,9 @@ double area_in(const Polyhedron& solid, const Plane& plane) {
   return area;
 }
 
-/// Builds the quarter of the sphere, block 0 with the contact patch, and the plane as the last block.
-Simulation put_together(const HertzSphere& sphere) {
+}  // namespace
+
+Simulation sphere_on_plane(const HertzSphere& sphere) {
   const Plane equator{{0, 0, sphere.radius}, Vector3::UnitZ()};
   std::vector<BlockDefinition> blocks;
   double loaded = 0.0;
@@ -137,7 +139,17 @@ Simulation put_together(const HertzSphere& sphere) {
   return simulation;
 }
 
-}  // namespace
+double approach_of(const Simulation& simulation, const HertzSphere& sphere) {
+  const Vector3 center(0, 0, sphere.radius);
+  double approach = 0.0;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    const auto& corners = block.solid().mesh().points;
+    if (!block.fixed() && std::find(corners.begin(), corners.end(), center) != corners.end())
+      approach = -block.motion_of(simulation.states()[k], center).displacement.z();
+  }
+  return approach;
+}
 
 double HertzSphere::contact_radius() const {
   const double modulus = young_modulus / (1.0 - poisson_ratio * poisson_ratio);
@@ -153,7 +165,7 @@ double HertzSphere::peak_pressure() const {
 }
 
 HertzContact press(const HertzSphere& sphere) {
-  Simulation simulation = put_together(sphere);
+  Simulation simulation = sphere_on_plane(sphere);
   HertzContact contact;
   contact.unknowns = simulation.unknowns();
   contact.equilibrium = find_equilibrium(simulation) == StaticStatus::equilibrium;
@@ -173,12 +185,12 @@ HertzContact press(const HertzSphere& sphere) {
   // The integral of p over r < a/3 is F (1 - (1 - 1/9)^(3/2)).
   const double share = 1.0 - std::pow(1.0 - 1.0 / 9.0, 1.5);
   contact.peak_pressure = sphere.peak_pressure() * within / (sphere.force * share);
-  const Vector3 center(0, 0, sphere.radius);
-  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
-    const BlockModel& block = simulation.blocks()[k];
-    const auto& corners = block.solid().mesh().points;
-    if (!block.fixed() && std::find(corners.begin(), corners.end(), center) != corners.end())
-      contact.approach = -block.motion_of(simulation.states()[k], center).displacement.z();
+  contact.approach = approach_of(simulation, sphere);
+  if (sphere.estimates && contact.equilibrium) {
+    const std::vector<GoalError> errors = goal_errors(simulation, [&](const Simulation& now) {
+      return std::vector<Goal>{{"approach", {approach_of(now, sphere)}}};
+    });
+    contact.approach_error = errors.empty() ? std::nan("") : errors[0].relative;
   }
   return contact;
 }

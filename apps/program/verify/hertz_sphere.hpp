@@ -30,6 +30,7 @@ struct HertzSphere {
                             ///< block's area over the corners of its facets, N/m
   bool area_springs = true;
   bool curved_surface = true;
+  bool estimates = false;  ///< the error of the approach by the orders of blocks too
 
   [[nodiscard]] double contact_radius() const;  ///< a, m
   [[nodiscard]] double approach() const;        ///< m
@@ -44,9 +45,16 @@ struct HertzContact {
   double approach = 0.0;       ///< m, of the sphere's center to the plane
   double peak_pressure = 0.0;  ///< Pa, from the force within a third of the formula's radius
   int unknowns = 0;
+  double approach_error = 0.0;  ///< relative, estimated (goal_error.hpp)
 };
 
+/// The quarter of the sphere, block 0 with the contact patch, and the plane as the last block.
 /// @throws std::runtime_error if the blocks cannot be tied
+[[nodiscard]] Simulation sphere_on_plane(const HertzSphere& sphere);
+/// Displacement of the sphere's center to the plane, m.
+[[nodiscard]] double approach_of(const Simulation& simulation, const HertzSphere& sphere);
+
+/// @throws std::runtime_error as sphere_on_plane
 [[nodiscard]] HertzContact press(const HertzSphere& sphere);
 
 }  // namespace ashlar

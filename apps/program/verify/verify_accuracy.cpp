@@ -4,7 +4,7 @@
 #include <array>
 
 #include "apps/program/study/error_time_study.hpp"
-#include "apps/program/verify/verification.hpp"
+#include "apps/program/verify/verify_effectivity.hpp"
 
 namespace ashlar {
 namespace {
@@ -20,8 +20,9 @@ std::vector<VerificationCheck> check_accuracy() {
   return checks;
 }
 
-constexpr std::array<VerificationCase, 1> accuracy_case_list = {
-    {{"accuracy-asked", "orders and steps chosen for an accuracy: true errors", check_accuracy}}};
+constexpr std::array<VerificationCase, 2> accuracy_case_list = {
+    {{"accuracy-asked", "orders and steps chosen for an accuracy: true errors", check_accuracy},
+     {"effectivity", "estimated errors of orders and steps over true ones", check_effectivity}}};
 
 }  // namespace
 

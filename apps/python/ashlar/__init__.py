@@ -229,9 +229,9 @@ class Simulation:
 
     @property
     def error(self):
-        """Estimated error, `error` of summary.json: of the orders of blocks {"estimate", "by", "blocks"}, or with
-        analysis.accuracy {"accuracy", "estimate", "by", "measures", "orders", ..., "advice"}; None where nothing is
-        estimated."""
+        """Estimated error, `error` of summary.json: of the orders of blocks {"estimate", "by", "blocks"}, in an equilibrium
+        of a static analysis also "measures", by name, or with analysis.accuracy {"accuracy", "estimate", "by", "measures",
+        "orders", ..., "advice"}; None where nothing is estimated."""
         return self.summary.get("error")
 
     @property

@@ -29,6 +29,16 @@ Json orders_of(const Simulation& simulation) {
   return json;
 }
 
+/// Blocks whose chosen order is below the largest chosen one: they did not need it.
+int left_low(const Simulation& simulation, const AccuracyState& state) {
+  int largest = 0, count = 0;
+  for (const auto& [block, order] : state.orders)
+    if (!simulation.blocks()[at(block)].rigid()) largest = std::max(largest, order);
+  for (const auto& [block, order] : state.orders)
+    if (!simulation.blocks()[at(block)].rigid() && order < largest) ++count;
+  return count;
+}
+
 }  // namespace
 
 nlohmann::ordered_json error_summary(const Simulation& simulation, const std::vector<OrderError>& errors) {
@@ -41,6 +51,21 @@ nlohmann::ordered_json error_summary(const Simulation& simulation, const std::ve
   }
   const double estimate = relative_error(errors);
   return {{"estimate", estimate}, {"by", {{"order", estimate}}}, {"blocks", std::move(blocks)}};
+}
+
+void add_measure_errors(const Scene& scene, const MeasureErrors& errors, nlohmann::ordered_json& summary) {
+  std::vector<double> sums(scene.measure.size(), 0.0);
+  double by_sub_faces = 0.0;
+  for (std::size_t k = 0; k < errors.orders.size(); ++k) sums[k] += errors.orders[k].relative;
+  for (std::size_t k = 0; k < errors.sub_faces.size(); ++k) {
+    sums[k] += errors.sub_faces[k].relative;
+    by_sub_faces = std::max(by_sub_faces, errors.sub_faces[k].relative);
+  }
+  if (!errors.sub_faces.empty()) summary["by"]["sub_faces"] = by_sub_faces;
+  if (errors.orders.empty()) return;
+  Json measures = Json::object();
+  for (std::size_t k = 0; k < sums.size(); ++k) measures[scene.measure[k].name] = sums[k];
+  summary["measures"] = std::move(measures);
 }
 
 std::optional<OrderError> coarse_block(const Simulation& simulation, const std::vector<OrderError>& errors) {
@@ -81,6 +106,7 @@ nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& si
     measures[scene.measure[k].name] = state.goals[k] + state.motion.error + state.motion.noise;
   json["measures"] = std::move(measures);
   json["orders"] = orders_of(simulation);
+  json["skipped"] = left_low(simulation, state);
   json["analyses"] = state.rounds;
   if (scene.analysis.automatic_step) {
     json["steps_tested"] = state.motion.tests;

@@ -8,6 +8,7 @@
 
 #include "apps/results/folder/accuracy_state.hpp"
 #include "apps/scene/model/scene.hpp"
+#include "solver/accuracy/goal_error.hpp"
 #include "solver/run/order_error.hpp"
 
 namespace ashlar {
@@ -20,13 +21,24 @@ inline constexpr double ordinary_order_error = 0.1;
 [[nodiscard]] nlohmann::ordered_json error_summary(const Simulation& simulation,
                                                    const std::vector<OrderError>& errors);
 
+/// Errors of all measures of an equilibrium (goal_error.hpp). Empty vectors: not estimated.
+struct MeasureErrors {
+  std::vector<GoalError> orders;
+  std::vector<GoalError> sub_faces;
+
+  [[nodiscard]] bool empty() const { return orders.empty() && sub_faces.empty(); }
+};
+
+/// Adds by.sub_faces, the largest of all measures, and `measures`: the relative error of each by orders and sub-faces.
+void add_measure_errors(const Scene& scene, const MeasureErrors& errors, nlohmann::ordered_json& summary);
+
 /// The block to be refined first, if all blocks of order 2 and more together have more than ordinary_order_error; those
 /// of order 1 are chosen for their motion, not for their stress.
 [[nodiscard]] std::optional<OrderError> coarse_block(const Simulation& simulation,
                                                      const std::vector<OrderError>& errors);
 
 /// `error` of summary.json: accuracy, estimate, by { order, sub_faces, step }, measures, orders { order: blocks },
-/// advice.
+/// skipped (blocks whose chosen order is below the largest one), advice.
 [[nodiscard]] nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& simulation,
                                                       const AccuracyState& state);
 

@@ -338,7 +338,8 @@ point = [4, 0, 0]
                              HasSubstr("rotation about [1, 0, 0] through [2, 0, 0]")));
 }
 
-// A beam with a load at its end: order 2 has 3/4 of the energy, an error of 1/2; order 3 bends as it should.
+// A beam with a load at its end: order 2 has 3/4 of the energy, an error of 1/2, and of the deflection; order 3 bends as
+// it should.
 TEST_F(StaticRun, OrdersThatAreTooLowAreTold) {
   write_text(scene_, R"(analysis = { type = "static", gravity = [0, 0, 0] }
 material = [{ name = "stone", density = 2000, young_modulus = 1e9, poisson_ratio = 0 }]
@@ -349,9 +350,15 @@ order = 2
 box = { min = [0, 0, 0], max = [10, 1, 1] }
 fix = [{ plane = { point = [0, 0, 0], normal = [1, 0, 0] } }]
 load = [{ plane = { point = [10, 0, 0], normal = [1, 0, 0] }, force = [0, 0, -1] }]
+[[measure]]
+name = "tip"
+block = "beam"
+point = [10, 0.5, 0.5]
 )");
   ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "two").string()}), exit_status::done);
   EXPECT_THAT(faults_, HasSubstr("warning: the estimated error of deformation is 50 %"));
+  EXPECT_THAT(faults_,
+              HasSubstr("warning: the estimated error of measure tip by the orders of blocks is 25 %"));
   EXPECT_THAT(faults_, HasSubstr("block beam of order 2"));
   ASSERT_EQ(
       command({"run", scene_.string(), "--out", (folder_ / "three").string(), "--set", "block.0.order=3"}),

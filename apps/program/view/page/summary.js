@@ -44,13 +44,28 @@ function answerRows(summary) {
 const ANSWERED = ["scene", "title", "status", "message", "moving", "displaced", "largest_displacement", "largest_compression",
   "largest_tension", "broken", "deepest", "factor_of_safety", "load_factor"];
 
+const percentText = (share) => short(100 * share) + " %";
+
+/// `error` of the summary: of the orders of blocks or of all choices, and of each measure.
+function errorRows({accuracy, estimate, by = {}, measures = {}, advice}) {
+  const rows = [["estimated error, relative"]];
+  if (accuracy !== undefined) rows.push(["asked for", percentText(accuracy)]);
+  if (estimate !== undefined) rows.push([accuracy !== undefined ? "largest" : "deformation of blocks", percentText(estimate)]);
+  if (accuracy !== undefined) for (const [part, share] of Object.entries(by)) rows.push(["by " + words(part), percentText(share)]);
+  for (const [name, share] of Object.entries(measures)) rows.push(["measure " + name, percentText(share)]);
+  if (advice) rows.push(["advice", advice]);
+  return rows;
+}
+
 /// All other numbers and texts as rows, tables of them as groups.
 function counterRows(summary) {
   const rows = [];
   const groups = [];
   for (const [key, value] of Object.entries(summary || {})) {
     if (ANSWERED.includes(key)) continue;
-    if (key === "automatic") {
+    if (key === "error") {
+      groups.push(...errorRows(value));
+    } else if (key === "automatic") {
       if (value.length > 0) groups.push(["chosen automatically"]);
       for (const choice of value) groups.push([choice.key, short(choice.value) + " " + choice.unit]);
     } else if (key === "rejected_steps") {

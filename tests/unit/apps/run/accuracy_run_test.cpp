@@ -53,6 +53,24 @@ nlohmann::json error_of(const ashlar::Run& run) {
   return nlohmann::json::parse(run.summary())["error"];
 }
 
+// Order 1 has the mean strain: its middle sinks by 1/2 rho g h^2 / 2E, two thirds of 3/4.
+TEST(AccuracyRun, AStaticRunWithoutAccuracyTellsTheErrorOfItsMeasures) {
+  for (const int order : {1, 2}) {
+    ashlar::Run run(loaded(pier("type = \"static\"", fmt::format("order = {}", order))));
+    while (run.step()) {
+      EXPECT_TRUE(run.measure_errors().empty()) << "not before the equilibrium";
+    }
+    ASSERT_EQ(run.status(), RunStatus::equilibrium);
+    const auto error = error_of(run);
+    EXPECT_EQ(error["measures"].size(), 1U);
+    EXPECT_NEAR(error["measures"]["middle"], order == 1 ? 1.0 / 3.0 : 0.0, 1e-3) << order;
+  }
+  ashlar::Run asked(loaded(pier("type = \"static\", accuracy = 1e-2")));
+  while (asked.step()) {
+  }
+  EXPECT_TRUE(asked.measure_errors().empty()) << "known from the choice";
+}
+
 TEST(AccuracyRun, AStaticRunHasTheChosenOrder) {
   ashlar::Run run(loaded(pier("type = \"static\", accuracy = 1e-3")));
   while (run.step()) {

@@ -47,7 +47,25 @@ TEST_F(AccuracySummary, TheLargestMeasureAndTheStepsAddUp) {
   EXPECT_NEAR(json["measures"]["first"], 0.0045, 1e-15);
   EXPECT_EQ(json["orders"], (nlohmann::ordered_json{{"3", 1}})) << "the base does not move";
   EXPECT_EQ(json["analyses"], 4);
+  EXPECT_EQ(json["skipped"], 0);
   EXPECT_EQ(json["advice"], "");
+}
+
+TEST_F(AccuracySummary, BlocksLeftAtLowOrdersAreCounted) {
+  state_.orders = {{0, 1}, {1, 3}};
+  EXPECT_EQ(accuracy_summary(scene_, simulation_, state_)["skipped"], 1);
+  state_.orders = {{1, 3}};
+  EXPECT_EQ(accuracy_summary(scene_, simulation_, state_)["skipped"], 0);
+}
+
+TEST_F(AccuracySummary, ErrorsOfMeasuresAreSums) {
+  nlohmann::ordered_json json;
+  add_measure_errors(scene_, {{{{1.0}, 0.1}, {{1.0}, 0.2}}, {}}, json);
+  EXPECT_EQ(json["measures"], (nlohmann::ordered_json{{"first", 0.1}, {"second", 0.2}}));
+  EXPECT_FALSE(json.contains("by"));
+  add_measure_errors(scene_, {{{{1.0}, 0.1}, {{1.0}, 0.2}}, {{{1.0}, 0.25}, {{1.0}, 0.5}}}, json);
+  EXPECT_EQ(json["measures"], (nlohmann::ordered_json{{"first", 0.35}, {"second", 0.7}}));
+  EXPECT_EQ(json["by"]["sub_faces"], 0.5);
 }
 
 TEST_F(AccuracySummary, AdviceIsAboutTheLargestPart) {

@@ -1,0 +1,67 @@
+// Plate and sphere of error_time_problems.hpp.
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "apps/program/study/error_time_problems.hpp"
+#include "apps/program/verify/hertz_sphere.hpp"
+#include "apps/program/verify/verification_contacts.hpp"
+#include "apps/program/verify/verification_values.hpp"
+#include "solver/accuracy/static_accuracy.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double no_equilibrium = std::numeric_limits<double>::infinity();
+
+/// Error of the only value of a goal in equilibrium. @param exact of the goal's unit
+double error_in_equilibrium(Simulation simulation, const GoalValues& goal, double exact,
+                            const ErrorTimeSetting& setting) {
+  if (setting.accuracy == 0.0) {
+    if (find_equilibrium(simulation) != StaticStatus::equilibrium) return no_equilibrium;
+  } else {
+    AccuracyRounds rounds;
+    const AccuracyRequest request{setting.accuracy, std::vector<bool>(simulation.blocks().size(), true)};
+    if (find_equilibrium(simulation, 1.0, request, goal, rounds, [] { return true; }) !=
+        StaticStatus::equilibrium)
+      return no_equilibrium;
+    if (setting.estimate != nullptr)
+      *setting.estimate = accuracy_estimate(goal(simulation), rounds).largest();
+  }
+  return std::abs(goal(simulation)[0].values[0] / exact - 1.0);
+}
+
+}  // namespace
+
+double plate_error(const ErrorTimeSetting& setting) {
+  constexpr double thickness = 0.1;
+  const Material material{2500.0, 1e9, 0.3};
+  BlockDefinition block =
+      define_block(Polyhedron(make_box({0, 0, 0}, {1, 1, thickness})), material, setting.order);
+  for (int axis = 0; axis < 2; ++axis)
+    for (const double side : {0.0, 1.0})
+      block.supports.push_back({Plane{side * Vector3::Unit(axis), Vector3::Unit(axis)}});
+  const GoalValues middle = [](const Simulation& now) {
+    const Vector3 way = displacement(now.blocks()[0], now.states()[0].position, {0.5, 0.5, 0.5 * thickness});
+    return std::vector<Goal>{{"middle", {way.z()}, 1e-12}};
+  };
+  const double rigidity = material.young_modulus * thickness * thickness * thickness /
+                          (12.0 * (1.0 - material.poisson_ratio * material.poisson_ratio));
+  return error_in_equilibrium(lone_block(std::move(block), {}, {}), middle,
+                              -0.0015046 * material.density * earth_gravity * thickness / rigidity, setting);
+}
+
+double hertz_error(const ErrorTimeSetting& setting) {
+  HertzSphere sphere;
+  const bool chosen = setting.accuracy > 0.0;
+  sphere.far_order = chosen ? 1 : setting.order;
+  sphere.near_order = chosen ? 1 : setting.order + 1;
+  sphere.inner_order = chosen ? 1 : setting.order + 2;
+  const GoalValues approach = [&](const Simulation& now) {
+    return std::vector<Goal>{{"approach", {approach_of(now, sphere)}}};
+  };
+  return error_in_equilibrium(sphere_on_plane(sphere), approach, sphere.approach(), setting);
+}
+
+}  // namespace ashlar
