@@ -7,6 +7,10 @@
 
 #include "apps/program/command_line.hpp"
 #include "apps/program/program_memory.hpp"
+#ifdef ASHLAR_MPI
+#include "apps/program/mpi/rank_program.hpp"
+#include "solver/ranks/mpi/mpi_session.hpp"
+#endif
 
 namespace {
 
@@ -22,6 +26,9 @@ void open_closed_streams() {
 int main(int count, char** arguments) {
   ashlar::prepare_for_missing_memory();
   open_closed_streams();
-  return ashlar::run_command_line(std::vector<std::string>(arguments + 1, arguments + count), std::cout,
-                                  std::cerr);
+  const std::vector<std::string> words(arguments + 1, arguments + count);
+#ifdef ASHLAR_MPI
+  if (ashlar::launched_as_rank()) return ashlar::run_as_rank(words);
+#endif
+  return ashlar::run_command_line(words, std::cout, std::cerr);
 }
