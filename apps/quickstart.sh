@@ -6,7 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
 # Packages that only tests and checks need are half of the download.
-tests_only='^clang|vtk|^chromium|^furo|^doxygen|^jupyter|^mypy|^pkg-config'
+tests_only='^clang|mpi|petsc|ptscotch|vtk|^chromium|^furo|^doxygen|^jupyter|^mypy|^pkg-config'
 tests_only+='|^python3-(breathe|cvxopt|h5py|ipykernel|jsonschema|matplotlib|meshio|myst-parser|pip|pytest|setuptools|sphinx|venv|wheel)'
 bash apps/install_packages.sh --except "$tests_only"
 cmake --preset release

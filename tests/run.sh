@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds ashlar with warnings as errors and runs all its tests.
 usage='use: tests/run.sh [OPTION]...
-  (nothing)      the release build, warnings as errors, and all its tests
+  (nothing)      the release build, warnings as errors, and all its tests; then the program with MPI and its tests
   --format       also check that all sources are formatted
   --lint         also --format, and clang-tidy on all sources
   --clang        also build and test with clang
@@ -64,6 +64,13 @@ build_and_test() {
   ctest --preset "$1" -j"$(nproc)"
 }
 
+# The program with MPI from the objects of the release build, which gets its own program back.
+check_mpi() {
+  build_and_test mpi
+  cmake --preset release >/dev/null
+  cmake --build --preset release -j"$jobs" --target ashlar
+}
+
 # A part of the sanitizers' runs that is done in minutes.
 check_geometry() {
   say 'asan: geometry'
@@ -83,6 +90,7 @@ check_subjects
 [[ $format == no ]] || check_format
 for preset in "${presets[@]}"; do
   build_and_test "$preset"
+  [[ $preset != release ]] || check_mpi
 done
 [[ $geometry == no ]] || check_geometry
 [[ $lint == no ]] || run_clang_tidy

@@ -16,6 +16,7 @@
 #include "apps/program/contacts/integrate_command.hpp"
 #include "apps/program/import/import_command.hpp"
 #include "apps/program/new/new_command.hpp"
+#include "apps/program/run/rank_agreement.hpp"
 #include "apps/program/run/run_options.hpp"
 #include "apps/program/schema_command.hpp"
 #include "apps/program/spectrum/spectrum_command.hpp"
@@ -50,10 +51,22 @@ void refuse_unknown_command(const CLI::App& program, const std::vector<std::stri
                         CLI::ExitCodes::InvalidError);
 }
 
+/// Ranks share runs only; help and the version are told by the first.
+void refuse_on_ranks(const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front().starts_with('-') || arguments.front() == "run") return;
+  if (std::find(arguments.begin(), arguments.end(), "--help") != arguments.end()) return;
+  throw CLI::ParseError(
+      fmt::format("several processes (mpiexec) share runs only, `ashlar run` is needed, or one "
+                  "process for `ashlar {}`",
+                  arguments.front()),
+      CLI::ExitCodes::InvalidError);
+}
+
 /// The same without treatment of exceptions.
-int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
+int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::ostream& err,
+                  const RunRanks* ranks) {
   CLI::App program("Ashlar: high-order 3-D discontinuous deformation analysis", "ashlar");
-  CommandContext context{out, err};
+  CommandContext context{out, err, exit_status::done, ranks};
   program.require_subcommand(1);
   program.set_version_flag("--version", version_text, "Version of the program, its compiler and libraries");
   program.footer("Exit status: 0 done; 1 the run failed; 2 bad input or usage; 130 interrupted.");
@@ -72,6 +85,7 @@ int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::os
   }
   try {
     refuse_unknown_command(program, arguments);
+    if (are_several(ranks)) refuse_on_ranks(arguments);
     // CLI11 takes arguments last first.
     std::reverse(arguments.begin(), arguments.end());
     program.parse(arguments);
@@ -86,10 +100,12 @@ int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::os
 
 }  // namespace
 
-int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
+int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err,
+                     const RunRanks* ranks) {
+  if (are_several(ranks)) return parse_and_run(std::move(arguments), out, err, ranks);
   // Faults of the input do not end here; these are failures of the program.
   try {
-    return parse_and_run(std::move(arguments), out, err);
+    return parse_and_run(std::move(arguments), out, err, ranks);
   } catch (const std::bad_alloc& error) {
     err << "ashlar: error: " << missing_memory(error) << '\n';
   } catch (const std::exception& error) {

@@ -14,6 +14,8 @@ class App;
 
 namespace ashlar {
 
+struct RunRanks;  // run_ranks.hpp
+
 /// Exit status of the program.
 namespace exit_status {
 inline constexpr int done = 0;
@@ -27,13 +29,17 @@ struct CommandContext {
   std::ostream& out;  ///< results
   std::ostream& err;  ///< faults and progress
   int status = exit_status::done;
+  const RunRanks* ranks = nullptr;  ///< processes that share a run; null: this one alone
 };
 
 /// Declares a sub-command on the program. Its callback runs the command and sets the context's status.
 using CommandDeclaration = void (*)(CLI::App& program, CommandContext& context);
 
 /// Parses and runs. A failure of the program, e.g. a result that cannot be written, goes to `err` too.
-/// @param arguments without the program's name. @return exit status.
-[[nodiscard]] int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err);
+/// @param arguments without the program's name. @param ranks null: this process alone. Commands other than `run` are
+/// refused on several. Collective; failures of the program are thrown on several ranks, as the others may wait
+/// @return exit status.
+[[nodiscard]] int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err,
+                                   const RunRanks* ranks = nullptr);
 
 }  // namespace ashlar

@@ -6,9 +6,12 @@
 #include <new>
 #include <optional>
 #include <ostream>
+#include <sstream>
+#include <string>
 
 #include "apps/program/command_line.hpp"
 #include "apps/program/run/contact_report.hpp"
+#include "apps/program/run/rank_agreement.hpp"
 #include "apps/program/view/view_file.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/run.hpp"
@@ -83,23 +86,42 @@ struct PreparedRun {
   bool resumes = false;              ///< from a checkpoint
 };
 
-/// Reads, checks and builds. Faults go to the diagnostics.
+std::string text_of(const Diagnostics& diagnostics) {
+  std::ostringstream text;
+  diagnostics.print(text);
+  return text.str();
+}
+
+/// Options of one process.
+void refuse_for_ranks(const RunOptions& options, Diagnostics& diagnostics) {
+  const auto refuse = [&](const char* option, const char* reason) {
+    diagnostics.error({option}, fmt::format("{} on several ranks", reason));
+  };
+  if (options.scene == "-") refuse("SCENE", "standard input (-) cannot be read");
+  if (!options.explained_pair.empty()) refuse("--explain-contacts", "contacts cannot be explained");
+}
+
+/// Reads, checks and builds. Faults go to the diagnostics. Collective: on several ranks none builds what another could not
+/// read.
 PreparedRun prepare(const RunOptions& options, const std::filesystem::path& folder, double began,
-                    Diagnostics& diagnostics, std::ostream& err) {
+                    Diagnostics& diagnostics, std::ostream& err, const RunRanks* ranks) {
   PreparedRun prepared;
   const int threads = std::max(options.threads, 1);
-  Preparation preparation(options.quiet, err);
+  if (are_several(ranks)) refuse_for_ranks(options, diagnostics);
+  if (!diagnostics.good()) return prepared;
+  Preparation preparation(options.quiet || !is_first(ranks), err);
   std::optional<LoadedScene> loaded =
       options.text
           ? load_scene_text(*options.text, options.scene, options.overrides, diagnostics, &preparation)
           : load_scene(options.scene, options.overrides, diagnostics, &preparation);
+  if (are_several(ranks) && any_rank(ranks->ranks, !loaded)) return prepared;
   if (!loaded) return prepared;
   const auto scene = std::make_shared<const LoadedScene>(std::move(*loaded));
   prepared.cost = scene->cost;
   std::optional<BuiltSimulation> built =
-      build_first_stage(*stage_scene(scene, 0), threads, diagnostics, &preparation);
+      build_first_stage(*stage_scene(scene, 0), threads, diagnostics, &preparation, ranks);
   if (!built) return prepared;
-  const Run& run = prepared.run.emplace(scene, std::move(*built), RunManner{threads, false, began});
+  const Run& run = prepared.run.emplace(scene, std::move(*built), RunManner{threads, false, began, ranks});
   if (!options.explained_pair.empty())
     prepared.explained = pair_by_names(options.explained_pair, run.simulation(), diagnostics);
   prepared.resumes = options.resume && !holds_open_search(folder, run.whole());
@@ -109,12 +131,12 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
   return prepared;
 }
 
-/// @return false if the checkpoint cannot be continued, which is reported
-bool go_on_from_checkpoint(Run& run, const std::filesystem::path& folder, std::ostream& err) {
+/// @return false if the checkpoint cannot be continued, which is reported. Collective
+bool go_on_from_checkpoint(Run& run, const std::filesystem::path& folder, std::ostream& err,
+                           const RunRanks* ranks) {
   Diagnostics faults;
   std::optional<RunCheckpoint> earlier = find_checkpoint(folder, run, faults);
-  faults.print(err);
-  if (!earlier) return false;
+  if (!all_go_on(ranks, earlier.has_value(), text_of(faults), err)) return false;
   try {
     run.resume(std::move(*earlier));
     return true;
@@ -133,11 +155,13 @@ void tell_beginning(const PreparedRun& prepared, std::ostream& err) {
 }
 
 /// Attaches the observers and finds the state that the run starts with. @return an exit status if it ends with that
+/// @param claim null: results are those of another rank
 std::optional<int> begin(Run& run, std::shared_ptr<const FolderClaim> claim, const RunOptions& options,
                          std::shared_ptr<RunProgress> progress, std::ostream& err) {
   run.observe(std::make_shared<InterruptObserver>());
+  const bool writes = claim != nullptr;
   run.record(std::move(claim), options.checkpoint, options.resume);
-  run.observe(std::move(progress));
+  if (writes) run.observe(std::move(progress));
   try {
     run.begin();
   } catch (const std::bad_alloc&) {
@@ -164,7 +188,7 @@ void tell_missing_memory(const std::bad_alloc& error, const Run& run, const std:
 
 /// Steps to the end, which is reported. @return exit status
 int go_to_end(PreparedRun& prepared, const std::filesystem::path& folder, RunProgress& progress,
-              const RunOptions& options, std::ostream& out, std::ostream& err) {
+              const RunOptions& options, std::ostream& out, std::ostream& err, const RunRanks* ranks) {
   Run& run = *prepared.run;
   try {
     try {
@@ -176,11 +200,12 @@ int go_to_end(PreparedRun& prepared, const std::filesystem::path& folder, RunPro
       // Told below as the message of the run.
       if (run.status() != RunStatus::failed) throw;
     }
-    tell_results(run, folder, options.quiet, err);
+    if (is_first(ranks)) tell_results(run, folder, options.quiet, err);
     if (prepared.explained) out << contact_report(run.simulation(), *prepared.explained);
     return exit_status_of(*run.status());
   } catch (const std::bad_alloc& error) {
     progress.finish();
+    if (are_several(ranks)) throw;
     tell_missing_memory(error, run, folder, err);
     return exit_status::failed;
   }
@@ -188,22 +213,23 @@ int go_to_end(PreparedRun& prepared, const std::filesystem::path& folder, RunPro
 
 }  // namespace
 
-int run_command(const RunOptions& options, std::ostream& out, std::ostream& err) {
+int run_command(const RunOptions& options, std::ostream& out, std::ostream& err, const RunRanks* ranks) {
   const double began = RunClock::now();
   const std::filesystem::path folder = result_folder_of(options);
   Diagnostics diagnostics;
-  PreparedRun prepared = prepare(options, folder, began, diagnostics, err);
-  diagnostics.print(err);
-  if (!diagnostics.good()) return exit_status::bad_input;
+  PreparedRun prepared = prepare(options, folder, began, diagnostics, err, ranks);
+  if (!all_go_on(ranks, diagnostics.good(), text_of(diagnostics), err)) return exit_status::bad_input;
   const InterruptGuard guard;
-  std::shared_ptr<const FolderClaim> claim = claim_folder(folder, options, err);
-  if (!claim) return exit_status::bad_input;
-  if (prepared.resumes && !go_on_from_checkpoint(*prepared.run, folder, err)) return exit_status::bad_input;
-  if (!options.quiet) tell_beginning(prepared, err);
+  std::shared_ptr<const FolderClaim> claim;
+  if (is_first(ranks)) claim = claim_folder(folder, options, err);
+  if (!all_go_on(ranks, claim || !is_first(ranks), "", err)) return exit_status::bad_input;
+  if (prepared.resumes && !go_on_from_checkpoint(*prepared.run, folder, err, ranks))
+    return exit_status::bad_input;
+  if (!options.quiet && is_first(ranks)) tell_beginning(prepared, err);
   const auto progress = std::make_shared<RunProgress>(err, options.quiet);
   if (const auto status = begin(*prepared.run, std::move(claim), options, progress, err)) return *status;
-  const int status = go_to_end(prepared, folder, *progress, options, out, err);
-  if (options.view && prepared.run->status()) {
+  const int status = go_to_end(prepared, folder, *progress, options, out, err, ranks);
+  if (options.view && prepared.run->status() && is_first(ranks)) {
     (void)write_view_file(folder, folder / "view.html");
     if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());
   }

@@ -36,8 +36,9 @@ void declare_run_command(CLI::App& program, CommandContext& context) {
       ->add_option("--explain-contacts", options->explained_pair,
                    "Print the contacts of two blocks at the end, and why others were left out")
       ->type_name("A,B");
-  command->callback(
-      [options, &context] { context.status = run_command(*options, context.out, context.err); });
+  command->callback([options, &context] {
+    context.status = run_command(*options, context.out, context.err, context.ranks);
+  });
 }
 
 }  // namespace ashlar

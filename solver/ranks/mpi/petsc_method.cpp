@@ -41,13 +41,15 @@ std::string PetscMethod::option(const char* name) const {
   return given == PETSC_TRUE ? value.data() : "";
 }
 
-/// Joins neighbours only, not their neighbours too: three quarters of the iterations (../../notes/rank_solver.md).
-/// Smooths by the diagonal blocks of bodies of one size, else by point relaxation, unless options say otherwise.
+/// Where options leave it open: joins neighbours only, not their neighbours too, which takes three quarters of the
+/// iterations (../../notes/rank_solver.md), and smooths by the diagonal blocks of bodies of one size, else by point
+/// relaxation.
 void PetscMethod::choose_multigrid() const {
-  check_petsc(PCGAMGSetAggressiveLevels(preconditioner_, 0));
-  const char* name = "-mg_levels_pc_type";
-  if (option(name).empty())
-    check_petsc(PetscOptionsSetValue(nullptr, name, matrix_.common_size() > 1 ? PCPBJACOBI : PCSOR));
+  const auto set = [this](const char* name, const char* value) {
+    if (option(name).empty()) check_petsc(PetscOptionsSetValue(nullptr, name, value));
+  };
+  set("-pc_gamg_aggressive_coarsening", "0");
+  set("-mg_levels_pc_type", matrix_.common_size() > 1 ? PCPBJACOBI : PCSOR);
 }
 
 void PetscMethod::choose(std::int64_t most_factored) {

@@ -1,0 +1,200 @@
+"""Runs of the program on several ranks: messages once, the same results, the end of a rank.
+
+Use: program_test.py MPIEXEC ASHLAR SCENES [TEST...]; MPIEXEC is a command, e.g. "mpiexec --oversubscribe"
+"""
+import csv
+import filecmp
+import json
+import os
+import pathlib
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BAD_INPUT = 2
+LONGEST = 240  # s
+
+
+def command(ranks, *arguments):
+    return [*shlex.split(MPIEXEC), "-n", str(ranks), ASHLAR, *map(str, arguments)]
+
+
+def run(ranks, *arguments):
+    """Exit status, standard output and errors; without mpiexec for 0 ranks."""
+    words = command(ranks, *arguments) if ranks > 0 else [ASHLAR, *map(str, arguments)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=LONGEST)
+    return done.returncode, done.stdout, done.stderr
+
+
+def errors_in(text):
+    return [line for line in text.splitlines() if "error:" in line]
+
+
+def table(path):
+    with open(path, encoding="utf-8") as file:
+        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+
+class RanksTest(unittest.TestCase):
+    def setUp(self):
+        self.kept = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.kept.name)
+
+    def tearDown(self):
+        self.kept.cleanup()
+
+    def scene(self, name):
+        return SCENES / f"{name}.toml"
+
+    def test_bad_input_is_told_once(self):
+        scene = self.folder / "bad.toml"
+        scene.write_text('[analysis]\nend_time = -1\n')
+        status, _, errors = run(3, "run", scene, "--out", self.folder / "out")
+        self.assertEqual(status, BAD_INPUT, errors)
+        told = errors_in(errors)
+        self.assertTrue(any("bad.toml:2" in line for line in told), errors)
+        self.assertEqual(len(told), len(set(told)), errors)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_missing_file_is_told_once(self):
+        status, _, errors = run(2, "run", self.folder / "none.toml")
+        self.assertEqual(status, BAD_INPUT, errors)
+        self.assertEqual(len(errors_in(errors)), 1, errors)
+
+    def test_other_commands_are_refused_once(self):
+        status, out, errors = run(2, "check", self.scene("wall"))
+        self.assertEqual(status, BAD_INPUT, errors)
+        self.assertEqual(out, "")
+        self.assertEqual(errors.count("several processes (mpiexec) share runs only"), 1, errors)
+        self.assertEqual(run(1, "check", self.scene("wall"))[0], 0)
+
+    def test_wrong_usage_and_help_are_told_once(self):
+        status, _, errors = run(2, "run", self.scene("wall"), "--no-such-option")
+        self.assertEqual(status, BAD_INPUT, errors)
+        self.assertEqual(errors.count("--no-such-option"), 1, errors)
+        status, out, errors = run(2, "run", "--help")
+        self.assertEqual(status, 0, errors)
+        self.assertEqual(out.count("Usage: ashlar run"), 1, out)
+
+    def test_what_ranks_cannot_do_is_refused(self):
+        status, _, errors = run(2, "run", self.scene("wall"), "--set", "analysis.type=static", "--out", self.folder / "out")
+        self.assertEqual(status, BAD_INPUT, errors)
+        self.assertEqual(len(errors_in(errors)), 1, errors)
+        status, _, errors = run(2, "run", "-", "--out", self.folder / "out")
+        self.assertEqual(status, BAD_INPUT, errors)
+
+    def test_folder_in_use_is_told_once(self):
+        out = self.folder / "out"
+        short = ["run", self.scene("wall"), "--set", "analysis.end_time=0.01", "--out", out, "--quiet"]
+        self.assertEqual(run(0, *short)[0], 0)
+        status, _, errors = run(2, *short)
+        self.assertEqual(status, BAD_INPUT, errors)
+        self.assertEqual(len(errors_in(errors)), 1, errors)
+
+    def test_one_rank_has_the_bits_of_a_run_without(self):
+        short = ["--set", "analysis.end_time=0.2", "--set", "output.every=50", "--quiet", "--out"]
+        self.assertEqual(run(0, "run", self.scene("wall"), *short, self.folder / "plain")[0], 0)
+        status, _, errors = run(1, "run", self.scene("wall"), *short, self.folder / "ranked")
+        self.assertEqual(status, 0, errors)
+        self.expect_same_files(self.folder / "plain", self.folder / "ranked")
+
+    def expect_same_files(self, one, other):
+        names = [str(path.relative_to(one)) for path in [*one.glob("*.csv"), *one.glob("*.pvd"), *one.glob("frames/*")]]
+        self.assertIn("history.csv", names)
+        for name in names:
+            self.assertTrue(filecmp.cmp(one / name, other / name, shallow=False), name)
+
+    def expect_same_motion(self, name, end_time, ranks):
+        """Columns of the history within a millionth of their range."""
+        arguments = ["run", self.scene(name), "--set", f"analysis.end_time={end_time}", "--quiet", "--out"]
+        straight = self.folder / "1"
+        self.assertEqual(run(0, *arguments, straight)[0], 0)
+        expected = table(straight / "history.csv")
+        for count in ranks:
+            out = self.folder / str(count)
+            status, _, errors = run(count, *arguments, out)
+            self.assertEqual(status, 0, errors)
+            found = table(out / "history.csv")
+            self.assertEqual(len(found), len(expected))
+            for column in expected[0]:
+                if column.startswith(("iterations", "open_close", "residual", "energy_residual", "numerical")):
+                    continue
+                scale = max(abs(row[column]) for row in expected)
+                for a, b in zip(expected, found):
+                    self.assertLessEqual(abs(a[column] - b[column]), 1e-6 * scale + 1e-12, f"{column} on {count} ranks")
+            frames = sorted(path.name for path in straight.glob("frames/*"))
+            self.assertEqual(sorted(path.name for path in out.glob("frames/*")), frames)
+
+    def test_wall_moves_alike_on_many_ranks(self):
+        self.expect_same_motion("wall", 0.1, [2, 4])
+
+    def test_falling_stones_move_alike_on_many_ranks(self):
+        self.expect_same_motion("falling_block", 0.2, [2])
+
+    def test_summary_tells_the_ranks(self):
+        out = self.folder / "out"
+        status, _, errors = run(2, "run", self.scene("wall"), "--set", "analysis.end_time=0.02", "--quiet", "--out", out)
+        self.assertEqual(status, 0, errors)
+        ranks = json.loads((out / "summary.json").read_text())["ranks"]
+        self.assertEqual(len(ranks), 2)
+        blocks = json.loads((out / "summary.json").read_text())["blocks"]
+        self.assertEqual(sum(rank["blocks"] for rank in ranks), blocks)
+        for rank in ranks:
+            self.assertLess(rank["ghosts"], blocks / 2)
+            self.assertGreater(rank["bytes_sent"], 0)
+
+    def start(self, out):
+        """A run on 2 ranks, with the process ids of its ranks once it has saved a state."""
+        # One process group for all, which a failed test ends.
+        process = subprocess.Popen(
+            command(2, "run", self.scene("wall"), "--quiet", "--checkpoint", "0", "--out", out),
+            stderr=subprocess.PIPE, text=True, start_new_session=True)
+        self.addCleanup(end_group, process)
+        begun = time.monotonic()
+        while not (out / "history.csv").exists() or len((out / "history.csv").read_text().splitlines()) < 20:
+            self.assertLess(time.monotonic(), begun + LONGEST)
+            self.assertIsNone(process.poll(), process.stderr.read() if process.poll() is not None else "")
+            time.sleep(0.05)
+        return process, sorted(descendants(process.pid))
+
+    def test_end_of_a_rank_ends_the_run_and_keeps_the_checkpoint(self):
+        out = self.folder / "out"
+        process, ranks = self.start(out)
+        self.assertEqual(len(ranks), 2)
+        os.kill(ranks[-1], signal.SIGKILL)
+        self.assertNotEqual(process.wait(60), 0)
+        self.assertTrue((out / "checkpoint").exists())
+        for count in (2, 1, 0):
+            status, _, errors = run(count, "run", self.scene("wall"), "--set", "analysis.end_time=0.2", "--quiet",
+                                    "--resume", "--out", out)
+            self.assertEqual(status, 0 if count == 2 else BAD_INPUT if "passed" in errors else 0, errors)
+
+
+def end_group(process):
+    if process.poll() is None:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+    process.stderr.close()
+
+
+def descendants(parent):
+    """Process ids of ashlar below a process."""
+    below = []
+    for path in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (path / "stat").read_text().rsplit(")", 1)[1].split()
+            name = (path / "comm").read_text().strip()
+        except OSError:
+            continue
+        if int(fields[1]) == parent and name == "ashlar":
+            below.append(int(path.name))
+    return below
+
+
+if __name__ == "__main__":
+    MPIEXEC, ASHLAR, SCENES = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
