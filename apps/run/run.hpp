@@ -219,7 +219,8 @@ class Run {
   std::vector<FinishedStage> finished_;  ///< those before the present stage
   RunStatus stage_status_ = RunStatus::completed;
   std::vector<std::vector<double>> rows_;
-  ContactChanges changes_;  ///< of static iterations of the present stage
+  std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
+  ContactChanges changes_;           ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;
   std::string unsaved_;
