@@ -248,6 +248,21 @@ TEST(SharedSimulation, CurvedAndRigidBlocksStandAlike) {
   }
 }
 
+TEST(SharedSimulation, EveryIntegratorMovesAlike) {
+  for (const Integrator integrator : {Integrator::average_acceleration, Integrator::generalized_alpha}) {
+    Scene scene = pile(2, 1);
+    scene.settings.integrator = integrator;
+    scene.settings.stiffness_damping = 1e-4;
+    scene.law.damping = 0.1;
+    const End alone = run_alone(scene, 60);
+    const End shared = run_shared(scene, owners_of(scene, 3), 3, 60);
+    EXPECT_LT(distance(alone, shared), 1e-9);
+    EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
+                1e-9 * alone.totals.ledger.damping);
+    EXPECT_GT(shared.contacts.size(), 5u);
+  }
+}
+
 TEST(SharedSimulation, StepsAreCutAlike) {
   Scene scene = pile(2, 1);
   scene.settings.time_step = 2e-2;
