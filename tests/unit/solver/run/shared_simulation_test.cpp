@@ -291,6 +291,40 @@ TEST(SharedSimulation, RefusesWhatSeveralRanksCannotDo) {
                std::invalid_argument);
 }
 
+/// Bricks of the top course leave a wall whose joints have strength.
+TEST(SharedSimulation, TheFirstRankKnowsTheBrokenJointsOfAll) {
+  Scene scene = wall(2, 4);
+  scene.law.cohesion = 1e4;
+  scene.law.tensile_strength = 1e3;
+  for (std::size_t k = 5; k < scene.motions.size(); ++k) scene.motions[k].velocity = {0.0, 0.0, 1.0};
+  const auto areas_of = [](const Simulation& simulation) {
+    std::array<double, 2> areas{0.0, 0.0};
+    for (const auto& [blocks, pair] : simulation.histories()) {
+      areas[0] += pair.bonded;
+      areas[1] += pair.broken;
+    }
+    return areas;
+  };
+  std::vector<BlockModel> blocks;
+  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
+  Simulation alone(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
+  ASSERT_TRUE(advance(alone, 20));
+  EXPECT_GT(areas_of(alone)[1], 0.1);
+  run_on_threads(2, [&](Ranks& own) {
+    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
+    Simulation simulation(
+        share_blocks(own, owners_of(scene, 2), load, scene.settings, {}, nullptr, own.own() == 0),
+        scene.motions, test_support::same_law(scene.law), scene.settings);
+    ASSERT_TRUE(advance(simulation, 10));
+    simulation.gather_results();
+    ASSERT_TRUE(advance(simulation, 20));
+    simulation.gather_results();
+    if (own.own() != 0) return;
+    EXPECT_NEAR(areas_of(simulation)[0], areas_of(alone)[0], 1e-9);
+    EXPECT_NEAR(areas_of(simulation)[1], areas_of(alone)[1], 1e-9);
+  });
+}
+
 TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
   const Scene scene = wall(3, 4);
   run_on_threads(2, [&](Ranks& own) {
