@@ -98,7 +98,8 @@ void Run::prepare_piece() {
   if (stage() == 1 && !earlier_ && manner_.keeps_history && whole().stage.front().reset_displacement)
     reset_displacement();
   built_.simulation.gather_results();
-  observers_.tell(&RunObserver::run_begins, *this);
+  const auto tell_beginning = [this] { observers_.tell(&RunObserver::run_begins, *this); };
+  shared() ? do_on_all(manner_.ranks->ranks, tell_beginning) : tell_beginning();
   phase_ = Phase::stage_start;
   earlier_.reset();
   if (manner_.keeps_history) add_row();
@@ -328,6 +329,7 @@ void Run::end_stage(RunStatus status, std::string message) {
 void Run::end(RunStatus status) {
   status_ = stage_status_ = status;
   estimate_measures();
+  if (shared()) rank_work_ = work_of_ranks(simulation());
   for (auto observer = observers_.all().rbegin(); observer != observers_.all().rend(); ++observer) {
     try {
       (*observer)->run_ends(*this);

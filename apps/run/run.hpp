@@ -224,7 +224,8 @@ class Run {
   RunStatus stage_status_ = RunStatus::completed;
   std::vector<std::vector<double>> rows_;
   MeasureErrors measure_errors_;
-  ContactChanges changes_;  ///< of static iterations of the present stage
+  std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
+  ContactChanges changes_;           ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;
   std::string unsaved_;

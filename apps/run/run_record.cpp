@@ -179,8 +179,9 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
     begun = finished_;
     begun.push_back(finished(phase_ == Phase::stage_over && !status_ ? stage_status_ : status));
   }
-  auto summary = run_summary(whole(), identity_, built_,
-                             {status, message_, clock_.seconds(), frames, largest, std::move(begun)});
+  auto summary =
+      run_summary(whole(), identity_, built_,
+                  {status, message_, clock_.seconds(), frames, largest, std::move(begun), rank_work_});
   if (accuracy() != nullptr)
     summary["error"] = accuracy_summary(whole(), simulation(), *accuracy());
   else if (const std::vector<OrderError> errors = order_errors(); !errors.empty())

@@ -158,6 +158,25 @@ std::vector<PairRecord> contacts_of_run(const Simulation& simulation) {
   return all;
 }
 
+std::vector<PairBonds> bonds_of_run(const Simulation& simulation) {
+  const BlockSystem& system = simulation.system();
+  std::vector<PairBonds> own;
+  for (const auto& [blocks, pair] : simulation.histories())
+    if ((pair.bonded > 0.0 || pair.broken > 0.0) && system.owns_pair(blocks[0], blocks[1]))
+      own.push_back({blocks, pair.bonded, pair.broken});
+  if (system.share() == nullptr) return own;
+  Ranks& ranks = system.share()->ranks();
+  std::vector<PairBonds> all = ranks.own() == 0 ? own : std::vector<PairBonds>();
+  send_to_first(
+      ranks, [&](ByteWriter& writer) { writer(own); },
+      [&](ByteReader& reader) {
+        std::vector<PairBonds> others;
+        reader(others);
+        all.insert(all.end(), others.begin(), others.end());
+      });
+  return all;
+}
+
 std::vector<RankWork> work_of_ranks(const Simulation& simulation) {
   const BlockSystem& system = simulation.system();
   RankWork work;

@@ -18,6 +18,15 @@ namespace ashlar {
 /// Records of all pairs in contact, by blocks, on rank 0; on other ranks none.
 [[nodiscard]] std::vector<PairRecord> contacts_of_run(const Simulation& simulation);
 
+/// Area of strength of a pair so far (PairHistory), m^2.
+struct PairBonds {
+  PairKey blocks;
+  double bonded;
+  double broken;
+};
+/// Of all pairs that have had any, on rank 0; on other ranks none.
+[[nodiscard]] std::vector<PairBonds> bonds_of_run(const Simulation& simulation);
+
 /// Work and memory of one rank.
 struct RankWork {
   int own = 0;     ///< blocks

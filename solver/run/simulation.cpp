@@ -77,9 +77,14 @@ void Simulation::gather_results() {
   if (shared_ == nullptr) return;
   ToldResults told{totals_of_run(*this), contacts_of_run(*this)};
   std::vector<BlockState> states = states_of_run(*this);
+  const std::vector<PairBonds> bonds = bonds_of_run(*this);
   if (system_.share()->ranks().own() != 0) return;
   if (!shared_->keeps_models) throw std::logic_error("the first rank has no models of blocks elsewhere");
   state_.states = std::move(states);
+  for (const auto& [blocks, bonded, broken] : bonds) {
+    state_.pairs[blocks].bonded = bonded;
+    state_.pairs[blocks].broken = broken;
+  }
   told_ = std::move(told);
 }
 

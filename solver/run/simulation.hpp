@@ -101,8 +101,8 @@ class Simulation {
   /// @}
 
   /// Puts the results of all ranks together on the first one, which has to have the models of all blocks
-  /// (share_blocks): its states(), contacts(), report(), ledger() and other sums are those of the run until the next
-  /// step. Collective; no effect without ranks.
+  /// (share_blocks): its states(), contacts(), areas of bonds in histories(), report(), ledger() and other sums are
+  /// those of the run until the next step. Collective; no effect without ranks.
   void gather_results();
 
   /// True if the remaining time up to `end_time` is within rounding error or less than 1e-9 of a step.

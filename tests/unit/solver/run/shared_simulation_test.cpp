@@ -248,6 +248,21 @@ TEST(SharedSimulation, CurvedAndRigidBlocksStandAlike) {
   }
 }
 
+TEST(SharedSimulation, EveryIntegratorMovesAlike) {
+  for (const Integrator integrator : {Integrator::average_acceleration, Integrator::generalized_alpha}) {
+    Scene scene = pile(2, 1);
+    scene.settings.integrator = integrator;
+    scene.settings.stiffness_damping = 1e-4;
+    scene.law.damping = 0.1;
+    const End alone = run_alone(scene, 60);
+    const End shared = run_shared(scene, owners_of(scene, 3), 3, 60);
+    EXPECT_LT(distance(alone, shared), 1e-9);
+    EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
+                1e-9 * alone.totals.ledger.damping);
+    EXPECT_GT(shared.contacts.size(), 5u);
+  }
+}
+
 TEST(SharedSimulation, StepsAreCutAlike) {
   Scene scene = pile(2, 1);
   scene.settings.time_step = 2e-2;
@@ -274,6 +289,40 @@ TEST(SharedSimulation, RefusesWhatSeveralRanksCannotDo) {
                                 (void)share_blocks(own, owners_of(scene, 2), load, scene.settings);
                               }),
                std::invalid_argument);
+}
+
+/// Bricks of the top course leave a wall whose joints have strength.
+TEST(SharedSimulation, TheFirstRankKnowsTheBrokenJointsOfAll) {
+  Scene scene = wall(2, 4);
+  scene.law.cohesion = 1e4;
+  scene.law.tensile_strength = 1e3;
+  for (std::size_t k = 5; k < scene.motions.size(); ++k) scene.motions[k].velocity = {0.0, 0.0, 1.0};
+  const auto areas_of = [](const Simulation& simulation) {
+    std::array<double, 2> areas{0.0, 0.0};
+    for (const auto& [blocks, pair] : simulation.histories()) {
+      areas[0] += pair.bonded;
+      areas[1] += pair.broken;
+    }
+    return areas;
+  };
+  std::vector<BlockModel> blocks;
+  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
+  Simulation alone(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
+  ASSERT_TRUE(advance(alone, 20));
+  EXPECT_GT(areas_of(alone)[1], 0.1);
+  run_on_threads(2, [&](Ranks& own) {
+    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
+    Simulation simulation(
+        share_blocks(own, owners_of(scene, 2), load, scene.settings, {}, nullptr, own.own() == 0),
+        scene.motions, test_support::same_law(scene.law), scene.settings);
+    ASSERT_TRUE(advance(simulation, 10));
+    simulation.gather_results();
+    ASSERT_TRUE(advance(simulation, 20));
+    simulation.gather_results();
+    if (own.own() != 0) return;
+    EXPECT_NEAR(areas_of(simulation)[0], areas_of(alone)[0], 1e-9);
+    EXPECT_NEAR(areas_of(simulation)[1], areas_of(alone)[1], 1e-9);
+  });
 }
 
 TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
