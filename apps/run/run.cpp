@@ -28,10 +28,12 @@ namespace ashlar {
 namespace {
 
 /// @throws std::invalid_argument
-BuiltSimulation first_stage(const std::shared_ptr<const LoadedScene>& scene, int threads) {
+BuiltSimulation first_stage(const std::shared_ptr<const LoadedScene>& scene, int threads,
+                            const RunRanks* ranks) {
   if (threads < 1) throw std::invalid_argument(fmt::format("threads is {}, at least 1 is needed", threads));
   Diagnostics diagnostics;
-  std::optional<BuiltSimulation> built = build_first_stage(*stage_scene(scene, 0), threads, diagnostics);
+  std::optional<BuiltSimulation> built =
+      build_first_stage(*stage_scene(scene, 0), threads, diagnostics, nullptr, ranks);
   for (const Diagnostic& fault : diagnostics.sorted())
     if (fault.severity == Severity::error) throw std::invalid_argument(to_string(fault));
   return std::move(*built);
@@ -46,7 +48,7 @@ bool is_done(RunStatus status) {
 Run::Run(std::shared_ptr<const LoadedScene> scene, int threads) : Run(scene, RunManner{.threads = threads}) {}
 
 Run::Run(const std::shared_ptr<const LoadedScene>& scene, const RunManner& manner)
-    : Run(scene, first_stage(scene, manner.threads), manner) {}
+    : Run(scene, first_stage(scene, manner.threads, manner.ranks), manner) {}
 
 Run::Run(std::shared_ptr<const LoadedScene> scene, BuiltSimulation built, const RunManner& manner)
     : scene_(std::move(scene)),
@@ -95,7 +97,9 @@ void Run::prepare_piece() {
   if (status_) return;
   if (stage() == 1 && !earlier_ && manner_.keeps_history && whole().stage.front().reset_displacement)
     reset_displacement();
-  observers_.tell(&RunObserver::run_begins, *this);
+  built_.simulation.gather_results();
+  const auto tell_beginning = [this] { observers_.tell(&RunObserver::run_begins, *this); };
+  shared() ? do_on_all(manner_.ranks->ranks, tell_beginning) : tell_beginning();
   phase_ = Phase::stage_start;
   earlier_.reset();
   if (manner_.keeps_history) add_row();
@@ -210,7 +214,7 @@ void Run::take_step() {
   Simulation& simulation = built_.simulation;
   const double end_time = scene().analysis.end_time;
   if (!simulation.reached(end_time)) {
-    if (!observers_.go_on()) return interrupt();
+    if (!goes_on()) return interrupt();
     StepStatus taken = StepStatus::accepted;
     try {
       if (whole().analysis.automatic_step)
@@ -219,6 +223,7 @@ void Run::take_step() {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
+      if (shared()) throw;  // other ranks may wait for this one
       return fail_in_step(error);
     }
     if (taken != StepStatus::accepted) {
@@ -282,6 +287,7 @@ void Run::draw_onset() {
 
 /// @return false if its results could not be written
 bool Run::accept_step() {
+  built_.simulation.gather_results();
   if (manner_.keeps_history) add_row();
   const Stopwatch watch(clock_.output());
   return tell(&RunObserver::step_taken);
@@ -314,6 +320,7 @@ void Run::end_stage(RunStatus status, std::string message) {
 /// Observers end in reverse order: the last state is saved before the summary tells the end.
 void Run::end(RunStatus status) {
   status_ = stage_status_ = status;
+  if (shared()) rank_work_ = work_of_ranks(simulation());
   for (auto observer = observers_.all().rbegin(); observer != observers_.all().rend(); ++observer) {
     try {
       (*observer)->run_ends(*this);
@@ -361,12 +368,12 @@ void Run::interrupt() {
 bool Run::tell(void (RunObserver::*event)(const Run&)) {
   try {
     observers_.tell(event, *this);
-    return true;
+    return told_on_all(true);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     fail_to_write(error);
-    return false;
+    return told_on_all(false);
   }
 }
 

@@ -45,6 +45,9 @@ struct RunManner {
   int threads = 1;                 ///< >= 1
   bool keeps_history = true;       ///< rows() of all steps in memory
   double began = RunClock::now();  ///< start of the wall time of a summary
+  /// Processes that share the run, each with a Run of its own that its caller steps; null: none. Observers, records and
+  /// rows are for the first one
+  const RunRanks* ranks = nullptr;
 };
 
 class Run {
@@ -191,6 +194,9 @@ class Run {
   void fail_to_write(const std::exception& error);
   void interrupt();
   bool tell(void (RunObserver::*event)(const Run&));
+  bool goes_on() const;
+  bool told_on_all(bool told);
+  [[nodiscard]] bool shared() const { return manner_.ranks != nullptr && manner_.ranks->several(); }
   void save_after_failure(RunObserver& observer);
   void add_row();
   [[nodiscard]] FinishedStage finished(RunStatus status) const;
@@ -213,7 +219,8 @@ class Run {
   std::vector<FinishedStage> finished_;  ///< those before the present stage
   RunStatus stage_status_ = RunStatus::completed;
   std::vector<std::vector<double>> rows_;
-  ContactChanges changes_;  ///< of static iterations of the present stage
+  std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
+  ContactChanges changes_;           ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;
   std::string unsaved_;

@@ -75,6 +75,21 @@ void Run::observe(std::shared_ptr<RunObserver> observer) {
   observers_.add(std::move(observer));
 }
 
+/// False if an observer of any rank ends the run.
+bool Run::goes_on() const {
+  const bool here = observers_.go_on();
+  return shared() ? !any_rank(manner_.ranks->ranks, !here) : here;
+}
+
+/// @return false if results could not be written on any rank: the run has failed on all
+bool Run::told_on_all(bool told) {
+  if (!shared() || !any_rank(manner_.ranks->ranks, !told)) return told;
+  if (!told) return false;
+  status_ = stage_status_ = RunStatus::failed;
+  message_ = "results could not be written";
+  return false;
+}
+
 void Run::record(const std::filesystem::path& folder, ClaimPurpose purpose) {
   if (claim_) throw std::logic_error("the run is recorded already, into " + claim_->folder().string());
   if (status_)
@@ -87,7 +102,8 @@ void Run::record(std::shared_ptr<const FolderClaim> claim, std::optional<double>
       claim, earlier_ ? std::optional(earlier_->folder) : std::optional<ResultFolderState>());
   auto saver = std::make_shared<CheckpointSaver>(recorder, interval, earlier_ != nullptr);
   observe(recorder);
-  observe(saver);
+  // The state of one rank is not that of the run.
+  if (!shared()) observe(saver);
   recorder_ = std::move(recorder);
   saver_ = std::move(saver);
   claim_ = std::move(claim);
@@ -163,8 +179,9 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
     begun = finished_;
     begun.push_back(finished(phase_ == Phase::stage_over && !status_ ? stage_status_ : status));
   }
-  auto summary = run_summary(whole(), identity_, built_,
-                             {status, message_, clock_.seconds(), frames, largest, std::move(begun)});
+  auto summary =
+      run_summary(whole(), identity_, built_,
+                  {status, message_, clock_.seconds(), frames, largest, std::move(begun), rank_work_});
   if (accuracy() != nullptr)
     summary["error"] = accuracy_summary(whole(), simulation(), *accuracy());
   else if (const std::vector<OrderError> errors = order_errors(); !errors.empty())

@@ -17,9 +17,11 @@ std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const Loade
 }
 
 std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int threads,
-                                                 Diagnostics& diagnostics, Preparation* preparation) {
+                                                 Diagnostics& diagnostics, Preparation* preparation,
+                                                 const RunRanks* ranks) {
   const Scene& scene = first.scene;
-  std::optional<BuiltSimulation> built = build_simulation(first, threads, diagnostics, preparation);
+  std::optional<BuiltSimulation> built =
+      build_simulation(first, threads, diagnostics, preparation, {}, ranks);
   if (built && is_static(scene.analysis)) refuse_loose_blocks(scene, built->simulation, diagnostics);
   if (!built || !diagnostics.good()) return built;
   const std::optional<RigidModel> model = limit_model(scene, built->simulation);

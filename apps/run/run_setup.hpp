@@ -15,11 +15,12 @@ namespace ashlar {
 
 /// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, and searches
 /// with nothing to find.
-/// @param first of stage_scene(). @param threads >= 1
+/// @param first of stage_scene(). @param threads >= 1. @param ranks see build_simulation
 /// @return empty if a block cannot be built
 [[nodiscard]] std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int threads,
                                                                Diagnostics& diagnostics,
-                                                               Preparation* preparation = nullptr);
+                                                               Preparation* preparation = nullptr,
+                                                               const RunRanks* ranks = nullptr);
 
 /// The simulation of a stage. @throws std::runtime_error if its blocks cannot be built
 [[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads,

@@ -12,12 +12,27 @@ double area_of_triangle(const TriangleMesh& mesh, const std::array<int, 3>& corn
   return 0.5 * (mesh.points[at(corners[1])] - start).cross(mesh.points[at(corners[2])] - start).norm();
 }
 
+double area_of(const TriangleMesh& mesh, const PolyhedronFace& face) {
+  double area = 0.0;
+  for (const int triangle : face.triangles) area += area_of_triangle(mesh, mesh.triangles[at(triangle)]);
+  return area;
+}
+
 }  // namespace
 
 double surface_area(const TriangleMesh& mesh) {
   double area = 0.0;
   for (const auto& triangle : mesh.triangles) area += area_of_triangle(mesh, triangle);
   return area;
+}
+
+double largest_face_area(const Polyhedron& solid, double resolution) {
+  double most = 0.0;
+  for (const PolyhedronFace& face : solid.faces()) {
+    const double area = area_of(solid.mesh(), face);
+    if (area > (1.0 + resolution) * most) most = area;
+  }
+  return most;
 }
 
 Eigen::Matrix3d axes_along_largest_face(const std::vector<const Polyhedron*>& solids, double resolution) {
@@ -28,8 +43,7 @@ Eigen::Matrix3d axes_along_largest_face(const std::vector<const Polyhedron*>& so
   for (const Polyhedron* solid : solids) {
     const TriangleMesh& mesh = solid->mesh();
     for (const PolyhedronFace& face : solid->faces()) {
-      double area = 0.0;
-      for (const int triangle : face.triangles) area += area_of_triangle(mesh, mesh.triangles[at(triangle)]);
+      const double area = area_of(mesh, face);
       if (area <= larger * most_area) continue;
       most_area = area;
       normal = face.normal;

@@ -39,7 +39,7 @@ struct ContactCache {
                                                  ///< checkpoint)
 };
 
-/// Lists what a checkpoint stores (run/byte_archive.hpp); rows follow from it, see with_rows().
+/// Lists what a checkpoint stores (byte_archive.hpp); rows follow from it, see with_rows().
 template <class Archive>
 void visit_members(Archive& archive, ContactCache& cache) {
   auto& [contacts, positions, divisions, reach, law, found, rows] = cache;

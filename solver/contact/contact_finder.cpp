@@ -46,10 +46,11 @@ std::vector<bool> fixed_and_present(const std::vector<BlockModel>& blocks, const
 }  // namespace
 
 ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
-                             std::set<PairKey> left_out, std::vector<bool> absent, ContactObserver observer)
+                             std::set<PairKey> left_out, std::vector<bool> absent, ContactObserver observer,
+                             const std::optional<Eigen::Matrix3d>& axes)
     : settings_(settings),
       observer_(std::move(observer)),
-      axes_(axes_of(blocks)),
+      axes_(axes ? *axes : axes_of(blocks)),
       absent_(std::move(absent)),
       left_out_(std::move(left_out)),
       placed_(blocks.size()),
@@ -99,7 +100,7 @@ std::vector<Box> ContactFinder::near_boxes(const std::vector<BlockState>& states
                                            const ExpectedMotion& motion, double reach) {
   std::vector<Box> loose;
   for (std::size_t k = 0; k < surfaces_.size(); ++k)
-    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + reach));
+    loose.push_back(absent_[k] ? Box{} : loose_box(static_cast<int>(k)).grown(motion.loose[k] + reach));
   std::vector<bool> near(surfaces_.size(), false);
   for (const PairKey& pair : meeting_boxes(loose)) {
     if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
@@ -358,25 +359,6 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
 
 void ContactFinder::accept_motion() {
   for (BlockTrack& track : tracks_) track.path += track.checked_motion;
-}
-
-void ContactFinder::renew(int block, const BlockModel& model, PairHistories& histories) {
-  surfaces_[at(block)] = BlockSurface(model, settings_.search.subdivisions, axes_);
-  placed_[at(block)].reset();
-  tracks_[at(block)].box = Box{};
-  for (auto& [blocks, pair] : histories) {
-    if (blocks[0] != block && blocks[1] != block) continue;
-    pair.clearance.reset();
-    pair.cache.reset();
-  }
-}
-
-void ContactFinder::set_chord_tolerance(double tolerance, PairHistories& histories) {
-  settings_.search.chord_tolerance = tolerance;
-  for (auto& [blocks, pair] : histories) {
-    pair.clearance.reset();
-    pair.cache.reset();
-  }
 }
 
 FinderState ContactFinder::state() const {

@@ -89,9 +89,10 @@ class ContactFinder {
   /// @param left_out pairs of blocks between which no contacts are searched
   /// @param absent by block, or empty: blocks without contacts
   /// @param observer of the stages up to the entrance; empty: none
+  /// @param axes of the boxes; empty: along the largest face of all blocks
   ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
-                std::set<PairKey> left_out = {}, std::vector<bool> absent = {},
-                ContactObserver observer = {});
+                std::set<PairKey> left_out = {}, std::vector<bool> absent = {}, ContactObserver observer = {},
+                const std::optional<Eigen::Matrix3d>& axes = std::nullopt);
 
   /// Sets the blocks that may move. No contacts are searched between two blocks that do not. @param moving by block,
   /// false for fixed blocks
@@ -101,6 +102,8 @@ class ContactFinder {
     return tracks_[static_cast<std::size_t>(block)].checked_motion;
   }
 
+  /// Upper bound of the path of a block's fastest point so far, m.
+  [[nodiscard]] double path(int block) const { return tracks_[static_cast<std::size_t>(block)].path; }
   /// Upper bound of the path of a block's fastest point for a change of its position, m. @param change (p, 3)
   [[nodiscard]] double motion_bound(int block, const Eigen::MatrixX3d& change) const {
     return surfaces_[static_cast<std::size_t>(block)].quick_motion_bound(change);
@@ -138,6 +141,8 @@ class ContactFinder {
   /// Replaces a block whose model has changed. @param model at the place of the old one
   /// @param histories clearances of the block are removed
   void renew(int block, const BlockModel& model, PairHistories& histories);
+  /// Makes a block present, or absent, with a new model. It has no contacts yet. @param model at the place of the old one
+  void set_presence(int block, const BlockModel& model, bool present, PairHistories& histories);
   /// Updates the coordinates for a new step of an incremental block.
   void start_step(int block) { surfaces_[static_cast<std::size_t>(block)].start_step(); }
   /// Changes SearchSettings::chord_tolerance from the next search on; contacts are detected again. @param tolerance m, > 0

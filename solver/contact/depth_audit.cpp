@@ -276,6 +276,7 @@ Audit DepthAudit::run(const std::vector<BlockModel>& blocks, const std::vector<B
   std::vector<bool> moved(blocks.size(), false);
   std::vector<Box> boxes(blocks.size());
   for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (k < scope.absent.size() && scope.absent[k]) continue;
     moved[k] = !has_stayed(k, blocks[k], states[k], surfaces[k], scope, known);
     if (!moved[k]) {
       boxes[k] = known.boxes[k].grown(scope.unmoved);

@@ -92,7 +92,8 @@ struct AuditScope {
   int threads = 1;
   /// m, >= 0: blocks that have moved less since their last evaluation are not measured again
   double unmoved = 0.0;
-  bool fine = true;  ///< true: pairs with solids that are not convex are measured in any case
+  bool fine = true;               ///< true: pairs with solids that are not convex are measured in any case
+  std::vector<bool> absent = {};  ///< by block, or empty: blocks without place
 };
 
 /// Result of an audit.

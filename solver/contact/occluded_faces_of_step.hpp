@@ -21,6 +21,11 @@ class OccludedFacesOfStep {
   /// @param fixed by block; false for absent blocks
   OccludedFacesOfStep(std::vector<bool> fixed, const SimulationSettings& settings);
 
+  /// Makes a block one of the fixed ones, or removes it.
+  void set_fixed(int block, bool fixed) {
+    fixed_[static_cast<std::size_t>(block)] = fixed;
+    of_fixed_.reset();
+  }
   /// Begins a step without occluded faces.
   void begin() { of_step_.reset(); }
   [[nodiscard]] bool noted() const { return of_step_.has_value(); }

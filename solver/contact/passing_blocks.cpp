@@ -23,7 +23,7 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
   if (2.0 * most <= tolerance) return {};
   std::vector<Box> swept;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    swept.push_back(loose_box(static_cast<int>(k)).grown(tracks_[k].checked_motion));
+    swept.push_back(absent_[k] ? Box{} : loose_box(static_cast<int>(k)).grown(tracks_[k].checked_motion));
   }
   const auto both = [&](const PairKey& pair) {
     return tracks_[at(pair[0])].checked_motion + tracks_[at(pair[1])].checked_motion;

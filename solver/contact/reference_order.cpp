@@ -7,21 +7,28 @@
 
 namespace ashlar {
 
-ReferenceOrder::ReferenceOrder(const std::vector<BlockModel>& blocks, const Vector3& gravity) {
+std::vector<PlacedVolume> places_of(const std::vector<BlockModel>& blocks) {
+  std::vector<PlacedVolume> places;
+  places.reserve(blocks.size());
+  for (const BlockModel& block : blocks) places.push_back({block.basis().centroid(), block.basis().volume()});
+  return places;
+}
+
+ReferenceOrder::ReferenceOrder(const std::vector<PlacedVolume>& blocks, const Vector3& gravity) {
   Vector3 middle = Vector3::Zero();
   double volume = 0.0;
-  for (const BlockModel& block : blocks) {
-    middle += block.basis().volume() * block.basis().centroid();
-    volume += block.basis().volume();
+  for (const PlacedVolume& block : blocks) {
+    middle += block.volume * block.centroid;
+    volume += block.volume;
   }
   middle /= volume;
   const Vector3 up = -gravity.normalized();
   double farthest = 0.0;
-  for (const BlockModel& block : blocks) {
-    const Vector3 from_middle = block.basis().centroid() - middle;
+  for (const PlacedVolume& block : blocks) {
+    const Vector3 from_middle = block.centroid - middle;
     heights_.push_back(up.dot(from_middle));
     distances_.push_back(from_middle.norm());
-    farthest = std::max({farthest, distances_.back(), std::cbrt(block.basis().volume())});
+    farthest = std::max({farthest, distances_.back(), std::cbrt(block.volume)});
   }
   constexpr double rounding = 1e-9;
   rounding_ = rounding * farthest;

@@ -10,14 +10,18 @@
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
+#include "solver/ranks/placed_volume.hpp"
 
 namespace ashlar {
+
+/// Places of blocks.
+[[nodiscard]] std::vector<PlacedVolume> places_of(const std::vector<BlockModel>& blocks);
 
 /// Constant after construction.
 class ReferenceOrder {
  public:
   /// @param gravity m/s^2, of any length; zero: heights are not used
-  ReferenceOrder(const std::vector<BlockModel>& blocks, const Vector3& gravity);
+  ReferenceOrder(const std::vector<PlacedVolume>& blocks, const Vector3& gravity);
 
   /// True if a is before b: the higher block, or of blocks at the same height within rounding error the one farther
   /// from the centroid. If both are equal, the scene is symmetric with respect to the pair, and the later block is

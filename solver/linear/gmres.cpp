@@ -8,9 +8,10 @@
 namespace ashlar {
 
 KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& times,
-                     const Eigen::VectorXd& right_side, double tolerance, int most) {
+                     const Eigen::VectorXd& right_side, double tolerance, int most, const InnerProduct& dot) {
+  const auto length_of = [&dot](const Eigen::VectorXd& x) { return dot ? std::sqrt(dot(x, x)) : x.norm(); };
   KrylovSolution solution{Eigen::VectorXd::Zero(right_side.size()), false, 0};
-  const double size = right_side.norm();
+  const double size = length_of(right_side);
   if (!(size > 0.0)) {
     solution.converged = size == 0.0;
     return solution;
@@ -24,12 +25,12 @@ KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
   int used = 0;
   while (used < most && !solution.converged) {
     Eigen::VectorXd next = times(space.col(used));
-    const double before = next.norm();
+    const double before = length_of(next);
     for (int k = 0; k <= used; ++k) {
-      upper(k, used) = space.col(k).dot(next);
+      upper(k, used) = dot ? dot(space.col(k), next) : space.col(k).dot(next);
       next -= upper(k, used) * space.col(k);
     }
-    const double length = next.norm();
+    const double length = length_of(next);
     upper(used + 1, used) = length;
     for (int k = 0; k < used; ++k)
       upper.col(used).applyOnTheLeft(k, k + 1, rotations[static_cast<std::size_t>(k)].adjoint());

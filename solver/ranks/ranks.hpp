@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <stdexcept>
 #include <vector>
 
 namespace ashlar {
@@ -48,10 +50,24 @@ class SingleRank final : public Ranks {
   [[nodiscard]] RankTraffic traffic() const override { return {}; }
 };
 
-// The same result on all ranks.
+/// Thrown by a collective function because another rank has ended with an error.
+class OtherRankFailed final : public std::runtime_error {
+ public:
+  OtherRankFailed() : std::runtime_error("another rank has failed") {}
+};
+
+// The same result on all ranks. Values that are not numbers are infinite in maxima and minima.
 [[nodiscard]] double sum_of_ranks(Ranks& ranks, double value);
+/// @param values as many on each rank
 [[nodiscard]] std::vector<double> sum_of_ranks(Ranks& ranks, const std::vector<double>& values);
 [[nodiscard]] double max_of_ranks(Ranks& ranks, double value);
+[[nodiscard]] std::vector<double> max_of_ranks(Ranks& ranks, const std::vector<double>& values);
+[[nodiscard]] double min_of_ranks(Ranks& ranks, double value);
 [[nodiscard]] bool any_rank(Ranks& ranks, bool value);
+
+/// Does work of each rank that needs no other rank. If it throws on any, all throw: those ranks their own exception, the
+/// others a std::invalid_argument (if it was one) or std::runtime_error with the text of the lowest one. @param work not
+/// collective
+void do_on_all(Ranks& ranks, const std::function<void()>& work);
 
 }  // namespace ashlar

@@ -4,18 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/subfaces/view_frame.hpp"
-#include "solver/run/byte_archive.hpp"
+#include "solver/archived_geometry.hpp"
 #include "solver/step/snapshot.hpp"
 
 namespace ashlar {
-
-/// Lists all members (byte_archive.hpp), as it has constructors.
-template <class Archive>
-void visit_members(Archive& archive, ViewFrame& frame) {
-  auto& [origin, e1, e2, w] = frame;
-  archive(origin, e1, e2, w);
-}
 
 [[nodiscard]] std::string to_bytes(const SimulationSnapshot& snapshot);
 

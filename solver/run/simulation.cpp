@@ -10,6 +10,7 @@
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/contact_explanation.hpp"
+#include "solver/run/gathered_run.hpp"
 #include "solver/run/stage_start.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/rigid_verdict.hpp"
@@ -17,6 +18,7 @@
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
 #include "solver/step/accepted_bolts.hpp"
+#include "solver/step/agreement.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
@@ -25,7 +27,28 @@ namespace ashlar {
 Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions,
                        LawOfPair law, const SimulationSettings& settings, const std::vector<TieRequest>& ties,
                        std::vector<bool> absent)
-    : system_(std::move(blocks), std::move(law), settings, ties, std::move(absent)),
+    : Simulation(nullptr, std::move(blocks), motions, std::move(law), settings, ties, std::move(absent)) {}
+
+Simulation::Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
+                       const SimulationSettings& settings, const std::vector<TieRequest>& ties)
+    : Simulation(std::move(blocks.shared), std::move(blocks.blocks), motions, std::move(law), settings, ties,
+                 {}) {
+  if (settings.augmented) refuse_ranks("multipliers (contact.augmented)");
+  do_on_all(system_.share()->ranks(), [this] {
+    for (const BlockModel& block : system_.blocks()) {
+      if (block.incremental() != nullptr) refuse_ranks("incremental blocks");
+      if (block.quiet()) refuse_ranks("quiet boundaries");
+    }
+  });
+}
+
+Simulation::Simulation(std::unique_ptr<SharedBlocks> shared, std::vector<BlockModel> blocks,
+                       const std::vector<InitialMotion>& motions, LawOfPair law,
+                       const SimulationSettings& settings, const std::vector<TieRequest>& ties,
+                       std::vector<bool> absent)
+    : shared_(std::move(shared)),
+      system_(std::move(blocks), std::move(law), settings, ties,
+              shared_ ? shared_->absent : std::move(absent), shared_ ? shared_->share.get() : nullptr),
       caches_{StepContacts(system_), FactorCache(settings.linear_method),
               DepthAudit(system_.blocks().size())} {
   state_.next_step = settings.time_step;
@@ -46,7 +69,23 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
 }
 
 RunContext Simulation::context() {
-  return {system_, state_, caches_, fault_};
+  return {system_, state_, caches_, fault_, shared_.get()};
+}
+
+void Simulation::gather_results() {
+  told_.reset();
+  if (shared_ == nullptr) return;
+  ToldResults told{totals_of_run(*this), contacts_of_run(*this)};
+  std::vector<BlockState> states = states_of_run(*this);
+  if (system_.share()->ranks().own() != 0) return;
+  if (!shared_->keeps_models) throw std::logic_error("the first rank has no models of blocks elsewhere");
+  state_.states = std::move(states);
+  told_ = std::move(told);
+}
+
+void Simulation::refuse_ranks(const char* what) const {
+  if (shared_ != nullptr && !system_.share()->ranks().alone())
+    throw std::invalid_argument(std::string(what) + " are possible on one rank only so far");
 }
 
 RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& multiplied) const {
@@ -77,6 +116,7 @@ void Simulation::refuse_late(const char* call) const {
 
 void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   refuse_late("start_overlapping");
+  if (!depths.empty()) refuse_ranks("initial overlaps");
   if (!state_.pairs.empty()) throw std::logic_error("initial overlaps are set before the initial stress");
   for (const auto& [blocks, depth] : depths) {
     if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
@@ -100,6 +140,7 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
 
 std::optional<StressImbalance> Simulation::start_stressed() {
   refuse_late("start_stressed");
+  refuse_ranks("initial stresses");
   StressedContacts start = contacts_under_stress(system_, state_);
   for (auto& [blocks, memory] : start.contacts) state_.pairs[blocks].memory = std::move(memory);
   return start.worst;
@@ -107,6 +148,7 @@ std::optional<StressImbalance> Simulation::start_stressed() {
 
 void Simulation::add_bolts(std::vector<Bolt> bolts) {
   refuse_late("add_bolts");
+  if (!bolts.empty()) refuse_ranks("bolts and props");
   if (!system_.bolts().empty()) throw std::logic_error("all bolts of a run are added together");
   system_.set_bolts(std::move(bolts));
   state_.ledger.springs_hold(install_bolts(system_, state_));
@@ -118,7 +160,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
   std::vector<int> settled;
   for (int k = 0; k < system_.count(); ++k) {
     const BlockModel& block = system_.blocks()[at(k)];
-    if (!system_.moving()[at(k)] || !block.supported() || system_.is_tied(k)) continue;
+    if (block.fixed() || !system_.present(k) || !block.supported() || system_.is_tied(k)) continue;
     auto position = block.equilibrium(system_.settings().gravity_at(0.0), 0.0);
     if (!position) continue;
     settled.push_back(k);
@@ -143,11 +185,13 @@ std::vector<int> Simulation::settle_supported_blocks() {
 
 StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
   refuse_late("start_from_statics");
+  refuse_ranks("starts from statics");
   return ashlar::start_from_statics(context(), goes_on);
 }
 
 void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
   refuse_late("start_stage");
+  refuse_ranks("staged analyses");
   ashlar::start_stage(system_, state_, caches_, end, was_absent);
 }
 
@@ -156,6 +200,7 @@ bool Simulation::reached(double end_time) const {
 }
 
 StepStatus Simulation::step(double end_time) {
+  told_.reset();
   return take_step(context(), end_time);
 }
 
@@ -164,6 +209,7 @@ StaticStatus Simulation::static_step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time, double far) {
+  refuse_ranks("static analyses");
   wake_all(system_, state_);
   const StaticStatus status = ashlar::static_step(context(), end_time, far);
   const bool ended = status == StaticStatus::equilibrium || status == StaticStatus::not_converged;
@@ -184,12 +230,14 @@ std::vector<std::vector<int>> Simulation::loose_blocks() {
 
 void Simulation::set_load_factor(int block, int load, double factor) {
   if (!std::isfinite(factor)) throw std::invalid_argument("the factor of a load is a finite number");
+  refuse_ranks("factors of loads");
   system_.set_load_factor(block, load, factor);
   wake_all(system_, state_);
   state_.statics = StaticState{};
 }
 
 DroppedByOrder Simulation::change_order(int block, int order) {
+  refuse_ranks("changes of order");
   wake_all(system_, state_);
   state_.sleep.rests.at(at(block)) = BlockRest{};
   return ashlar::change_order(system_, state_, caches_, block, order);
@@ -222,26 +270,31 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
 }
 
 std::optional<StateFault> Simulation::audit() {
-  return audit_present(system_, state_, caches_).fault;
+  return first_of_run(system_, audit_present(system_, state_, caches_).fault);
 }
 
 Vector3 Simulation::momentum() const {
+  if (told_) return told_->totals.momentum;
   Vector3 sum = Vector3::Zero();
   for (std::size_t k = 0; k < system_.blocks().size(); ++k) {
-    if (system_.moving()[k]) sum += system_.blocks()[k].momentum(state_.states[k]);
+    if (system_.moving()[k] && system_.owns(static_cast<int>(k)))
+      sum += system_.blocks()[k].momentum(state_.states[k]);
   }
   return sum;
 }
 
 Vector3 Simulation::angular_momentum() const {
+  if (told_) return told_->totals.angular_momentum;
   Vector3 sum = Vector3::Zero();
   for (std::size_t k = 0; k < system_.blocks().size(); ++k) {
-    if (system_.moving()[k]) sum += system_.blocks()[k].angular_momentum(state_.states[k]);
+    if (system_.moving()[k] && system_.owns(static_cast<int>(k)))
+      sum += system_.blocks()[k].angular_momentum(state_.states[k]);
   }
   return sum;
 }
 
 SimulationCounts Simulation::counts() const {
+  if (told_) return told_->totals.counts;
   return counts_of(state_, caches_);
 }
 

@@ -7,15 +7,18 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "solver/run/initial_stress.hpp"
+#include "solver/run/run_totals.hpp"
 #include "solver/statics/static_analysis.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/dynamic_step.hpp"
+#include "solver/step/ghosts.hpp"
 #include "solver/step/run_context.hpp"
 
 namespace ashlar {
@@ -50,6 +53,13 @@ class Simulation {
   Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
              std::vector<bool> absent = {});
+  /// The part of one rank in a simulation that several ranks share (step/ghosts.hpp, notes/ranks.md): dynamics of
+  /// contacts with springs. Steps are then collective, and have the same status on all ranks. Sums over blocks, pairs
+  /// and points are those of this rank; gathered_run.hpp has those of the run.
+  /// @param blocks share_blocks(). Others as above, the same on all ranks
+  /// @throws std::invalid_argument for what several ranks cannot do yet
+  Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
+             const SimulationSettings& settings, const std::vector<TieRequest>& ties = {});
 
   /// Pressure of water in the joint of two blocks at a place of the placed blocks, Pa; only results use it.
   using JointPressure = std::function<double(int a, int b, const Vector3& place)>;
@@ -89,6 +99,11 @@ class Simulation {
   /// @throws std::invalid_argument if it has other blocks or other orders
   void start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent);
   /// @}
+
+  /// Puts the results of all ranks together on the first one, which has to have the models of all blocks
+  /// (share_blocks): its states(), contacts(), report(), ledger() and other sums are those of the run until the next
+  /// step. Collective; no effect without ranks.
+  void gather_results();
 
   /// True if the remaining time up to `end_time` is within rounding error or less than 1e-9 of a step.
   [[nodiscard]] bool reached(double end_time) const;
@@ -150,23 +165,25 @@ class Simulation {
   [[nodiscard]] const std::vector<BlockState>& states() const { return state_.states; }
   /// Surfaces in the last step's search, and their origins.
   [[nodiscard]] const ContactFinder& finder() const { return caches_.contacts.finder(); }
-  [[nodiscard]] const StepReport& report() const { return state_.report; }
-  [[nodiscard]] const std::vector<PairRecord>& contacts() const { return state_.records; }
+  [[nodiscard]] const StepReport& report() const { return told_ ? told_->totals.report : state_.report; }
+  [[nodiscard]] const std::vector<PairRecord>& contacts() const {
+    return told_ ? told_->contacts : state_.records;
+  }
   [[nodiscard]] const PairHistories& histories() const { return state_.pairs; }
   /// By bolt of system().
   [[nodiscard]] const std::vector<BoltState>& bolts() const { return state_.bolts; }
-  [[nodiscard]] const Ledger& ledger() const { return state_.ledger.ledger(); }
+  [[nodiscard]] const Ledger& ledger() const { return told_ ? told_->totals.ledger : state_.ledger.ledger(); }
   /// Largest change of the residual in one step and largest energy so far, J.
   [[nodiscard]] double largest_step_residual() const { return state_.ledger.largest_step_residual(); }
   [[nodiscard]] double largest_energy() const { return state_.ledger.largest_energy(); }
   /// Largest penetration of contact points, m.
-  [[nodiscard]] double largest_penetration() const { return state_.extremes.penetration; }
+  [[nodiscard]] double largest_penetration() const { return extremes().penetration; }
   /// Largest depth of any corner or edge, independent of contacts (depth_audit.hpp).
-  [[nodiscard]] const DeepestPoint& deepest() const { return state_.extremes.deepest; }
+  [[nodiscard]] const DeepestPoint& deepest() const { return extremes().deepest; }
   /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time.
-  [[nodiscard]] const FrictionTally& sliding_friction() const { return state_.extremes.sliding_friction; }
+  [[nodiscard]] const FrictionTally& sliding_friction() const { return extremes().sliding_friction; }
   /// Sum over all steps. 0 if no joint dilates.
-  [[nodiscard]] const DilatingSlip& dilating_slip() const { return state_.extremes.dilating_slip; }
+  [[nodiscard]] const DilatingSlip& dilating_slip() const { return extremes().dilating_slip; }
   /// Contacts of two blocks that the next step will detect, and those that it will remove, each with the reason.
   /// @throws std::invalid_argument if there are no such blocks or they are the same
   [[nodiscard]] ContactExplanation explain_contacts(int a, int b) const;
@@ -176,21 +193,31 @@ class Simulation {
   [[nodiscard]] const std::optional<StateFault>& fault() const { return fault_; }
   [[nodiscard]] Vector3 momentum() const;
   [[nodiscard]] Vector3 angular_momentum() const;
-  [[nodiscard]] int unknowns() const { return system_.unknowns(); }
+  [[nodiscard]] int unknowns() const { return told_ ? told_->totals.unknowns : system_.unknowns(); }
   [[nodiscard]] const std::vector<Rejection>& rejections() const { return state_.log.rejections; }
   [[nodiscard]] SimulationCounts counts() const;
   [[nodiscard]] const PhaseSeconds& seconds() const { return state_.log.seconds; }
 
  private:
+  Simulation(std::unique_ptr<SharedBlocks> shared, std::vector<BlockModel> blocks,
+             const std::vector<InitialMotion>& motions, LawOfPair law, const SimulationSettings& settings,
+             const std::vector<TieRequest>& ties, std::vector<bool> absent);
   [[nodiscard]] RunContext context();
+  [[nodiscard]] const ContactExtremes& extremes() const {
+    return told_ ? told_->totals.extremes : state_.extremes;
+  }
+  /// @throws std::invalid_argument if several ranks share the run. @param what they cannot do, to begin a sentence
+  void refuse_ranks(const char* what) const;
   /// @throws std::logic_error if contacts have been detected. @param call name of the function of the start
   void refuse_late(const char* call) const;
 
+  std::unique_ptr<SharedBlocks> shared_;  ///< null: one rank has all blocks
   BlockSystem system_;
   RunState state_;
   StepCaches caches_;
   std::optional<StateFault> fault_;
   JointPressure joint_pressure_;
+  std::optional<ToldResults> told_;  ///< of all ranks, until the next step
 };
 
 }  // namespace ashlar

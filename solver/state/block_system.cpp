@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/ranks/block_share.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/free_bodies.hpp"
 
@@ -41,9 +42,16 @@ Eigen::MatrixXd gradients_at(const BlockModel& block, const std::vector<Vector3>
 }  // namespace
 
 BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
-                         const std::vector<TieRequest>& ties, std::vector<bool> absent)
-    : blocks_(std::move(blocks)), absent_(std::move(absent)), law_(std::move(law)), settings_(settings) {
+                         const std::vector<TieRequest>& ties, std::vector<bool> absent, BlockShare* share)
+    : blocks_(std::move(blocks)),
+      absent_(std::move(absent)),
+      share_(share),
+      law_(std::move(law)),
+      settings_(settings) {
   absent_.resize(blocks_.size(), false);
+  away_ = absent_;
+  for (int k = 0; share_ != nullptr && k < count(); ++k)
+    away_[at(k)] = absent_[at(k)] || !(share_->owns(k) || share_->is_ghost(k));
   let_go();
   for (int k = 0; k < count(); ++k)
     if (moving_[at(k)] && blocks_[at(k)].quiet()) quiet_.push_back(k);
@@ -59,7 +67,11 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
   std::vector<PairKey> tied;
   for (const auto& [a, b, stiffness] : ties) {
-    if (!present(a) || !present(b)) continue;
+    if (share_ != nullptr && share_->owner(a) != share_->owner(b))
+      throw std::invalid_argument("blocks of two ranks cannot be tied yet: run it on one rank");
+    // Ghosts may come later.
+    if (share_ != nullptr) left_out_.insert({a, b});
+    if (!here(a) || !here(b) || !owns(a)) continue;
     const BlockModel& block_a = blocks_[at(a)];
     const BlockModel& block_b = blocks_[at(b)];
     if (block_a.incremental() != nullptr || block_b.incremental() != nullptr)
@@ -71,7 +83,25 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     tied.push_back({a, b});
   }
   free_bodies_ = ashlar::free_bodies(blocks_, tied);
-  std::erase_if(free_bodies_, [this](const std::vector<int>& body) { return !present(body.front()); });
+  std::erase_if(free_bodies_, [this](const std::vector<int>& body) {
+    return !present(body.front()) || !owns(body.front());
+  });
+}
+
+bool BlockSystem::owns(int block) const {
+  return share_ == nullptr || share_->owns(block);
+}
+
+bool BlockSystem::owns_pair(int a, int b) const {
+  if (share_ == nullptr) return true;
+  if (blocks_[at(a)].fixed()) return owns(b);
+  if (blocks_[at(b)].fixed()) return owns(a);
+  return owns(std::min(a, b));
+}
+
+bool BlockSystem::concerns(int a, int b) const {
+  if (share_ == nullptr) return true;
+  return (owns(a) && !blocks_[at(a)].fixed()) || (owns(b) && !blocks_[at(b)].fixed());
 }
 
 void BlockSystem::set_bolts(std::vector<Bolt> bolts) {
@@ -112,7 +142,7 @@ double BlockSystem::smaller_size(const BlockPair& blocks) const {
 int BlockSystem::unknowns() const {
   int sum = 0;
   for (int k = 0; k < count(); ++k)
-    if (present(k)) sum += blocks_[at(k)].freedom();
+    if (present(k) && owns(k)) sum += blocks_[at(k)].freedom();
   return sum;
 }
 
@@ -141,6 +171,14 @@ void BlockSystem::replace(int block, BlockModel model) {
     const BlockModel& b = blocks_[at(tied.b)];
     tied.tie = std::make_shared<const Tie>(tie_between(a.solid(), a.basis(), b.solid(), b.basis()));
   }
+}
+
+void BlockSystem::set_here(int block, BlockModel model, bool here) {
+  blocks_[at(block)] = std::move(model);
+  away_[at(block)] = absent_[at(block)] || !here;
+  moving_[at(block)] = this->here(block) && !blocks_[at(block)].fixed();
+  roundoff_force_[at(block)] = moving_[at(block)] ? blocks_[at(block)].force_rounding() : 0.0;
+  note_gradients(at(block));
 }
 
 void BlockSystem::carry_on(int block, BlockModel model) {
@@ -178,7 +216,7 @@ void BlockSystem::hold(const std::vector<int>& blocks) {
 
 void BlockSystem::let_go() {
   moving_.clear();
-  for (int k = 0; k < count(); ++k) moving_.push_back(!blocks_[at(k)].fixed() && present(k));
+  for (int k = 0; k < count(); ++k) moving_.push_back(!blocks_[at(k)].fixed() && here(k));
 }
 
 void BlockSystem::note_gradients(std::size_t k) {

@@ -18,6 +18,8 @@
 
 namespace ashlar {
 
+class BlockShare;  // ranks/block_share.hpp
+
 /// Two blocks to be bonded over their common faces.
 struct TieRequest {
   int a;  ///< a < b
@@ -41,14 +43,30 @@ class BlockSystem {
   /// @param law joint law of each pair (a < b). @param ties a pair without a common face is not tied, but its
   /// contacts are excluded all the same. @param absent by block, or empty: absent blocks keep their numbers, but have
   /// no motion, contact, weight or energy
-  /// @throws std::invalid_argument if a tied block is incremental
+  /// @param share of the blocks among ranks, must outlive this; null: one rank has all of them. Blocks that are neither
+  /// own nor ghosts of this rank are elsewhere: like absent ones here
+  /// @throws std::invalid_argument if a tied block is incremental, or blocks of two ranks are tied
   BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
-              const std::vector<TieRequest>& ties, std::vector<bool> absent = {});
+              const std::vector<TieRequest>& ties, std::vector<bool> absent = {},
+              BlockShare* share = nullptr);
 
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()); }
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
   [[nodiscard]] bool present(int block) const { return !absent_[static_cast<std::size_t>(block)]; }
   [[nodiscard]] const std::vector<bool>& absent() const { return absent_; }
+  /// Present blocks that this rank has, own or ghosts; without ranks all present blocks.
+  [[nodiscard]] bool here(int block) const { return !away_[static_cast<std::size_t>(block)]; }
+  /// Absent blocks and those elsewhere.
+  [[nodiscard]] const std::vector<bool>& away() const { return away_; }
+  /// Null: one rank has all blocks.
+  [[nodiscard]] BlockShare* share() const { return share_; }
+  /// True if this rank computes the motion of a block.
+  [[nodiscard]] bool owns(int block) const;
+  /// True if this rank makes the contacts of two blocks and accounts for their energy: the owner of the lower block, of
+  /// the only one if the other is fixed.
+  [[nodiscard]] bool owns_pair(int a, int b) const;
+  /// True if one of two blocks is own and not fixed.
+  [[nodiscard]] bool concerns(int a, int b) const;
   /// By block: false for fixed and absent blocks, and for blocks held at present: loose ones in statics, sleeping
   /// ones in dynamics.
   [[nodiscard]] const std::vector<bool>& moving() const { return moving_; }
@@ -89,6 +107,9 @@ class BlockSystem {
   void set_time_step(double step) { settings_.time_step = step; }
   /// @param tolerance of SearchSettings, m, > 0
   void set_chord_tolerance(double tolerance) { settings_.search.chord_tolerance = tolerance; }
+  /// Makes a present block of another rank a ghost, or no ghost any more.
+  /// @param model of the block; of one elsewhere any
+  void set_here(int block, BlockModel model, bool here);
   /// Replaces the model of an incremental block by that of its next step.
   void carry_on(int block, BlockModel model);
   /// @throws std::out_of_range for a block or load that does not exist
@@ -104,6 +125,8 @@ class BlockSystem {
 
   std::vector<BlockModel> blocks_;
   std::vector<bool> absent_;
+  std::vector<bool> away_;
+  BlockShare* share_;
   std::vector<bool> moving_;
   std::vector<int> quiet_;  ///< increasing
   LawOfPair law_;

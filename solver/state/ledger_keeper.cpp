@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/index.hpp"
+#include "solver/ranks/block_share.hpp"
 
 namespace ashlar {
 
@@ -18,7 +19,7 @@ void LedgerKeeper::multipliers_gave(double beyond) {
 
 void LedgerKeeper::measure_elastic(const BlockSystem& system, const std::vector<BlockState>& states,
                                    int block) {
-  if (!system.blocks()[at(block)].fixed() && system.present(block))
+  if (!system.blocks()[at(block)].fixed() && system.here(block) && system.owns(block))
     elastic_energies_[at(block)] = system.blocks()[at(block)].elastic(states[at(block)].position).energy;
 }
 
@@ -31,7 +32,7 @@ void LedgerKeeper::measure(const BlockSystem& system, const std::vector<BlockSta
   ledger_.kinetic = ledger_.elastic = ledger_.gravity = 0.0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const BlockModel& block = system.blocks()[k];
-    if (block.fixed() || !system.present(static_cast<int>(k))) continue;
+    if (block.fixed() || !system.here(static_cast<int>(k)) || !system.owns(static_cast<int>(k))) continue;
     ledger_.kinetic += block.kinetic_energy(states[k]);
     ledger_.elastic += elastic_energies_[k];
     if (system.settings().gravity_history.empty())
@@ -55,9 +56,16 @@ void LedgerKeeper::close_step(const BlockSystem& system, const std::vector<Block
   const double last_residual = ledger_.residual;
   measure(system, states);
   ledger_.residual = ledger_.balance() - start_balance_;
-  largest_step_residual_ = std::max(largest_step_residual_, std::abs(ledger_.residual - last_residual));
-  largest_energy_ = std::max({largest_energy_, ledger_.kinetic, ledger_.elastic, ledger_.contact,
-                              std::abs(ledger_.friction), std::abs(ledger_.applied)});
+  std::vector<double> sums = {ledger_.residual - last_residual,
+                              ledger_.kinetic,
+                              ledger_.elastic,
+                              ledger_.contact,
+                              ledger_.friction,
+                              ledger_.applied};
+  if (system.share() != nullptr) sums = sum_of_ranks(system.share()->ranks(), sums);
+  largest_step_residual_ = std::max(largest_step_residual_, std::abs(sums[0]));
+  largest_energy_ =
+      std::max({largest_energy_, sums[1], sums[2], sums[3], std::abs(sums[4]), std::abs(sums[5])});
 }
 
 }  // namespace ashlar

@@ -46,7 +46,7 @@ class LedgerKeeper {
   /// Measures the energies at the end of a step whose work has been booked, and the error of the balance.
   void close_step(const BlockSystem& system, const std::vector<BlockState>& states);
 
-  /// Lists the data of a checkpoint (run/byte_archive.hpp); elastic energies of blocks follow from their states.
+  /// Lists the data of a checkpoint (byte_archive.hpp); elastic energies of blocks follow from their states.
   template <class Archive>
   friend void visit_members(Archive& archive, LedgerKeeper& keeper) {
     auto& [ledger, start_balance, largest_step_residual, largest_energy, elastic_energies] = keeper;

@@ -41,7 +41,7 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   return status;
 }
 
-double energy_of_ties(const BlockSystem& system, RunState& state, const StepContacts& contacts) {
+double energy_of_ties(const BlockSystem& system, RunState& state, StepContacts& contacts) {
   double sum = 0.0;
   if (system.ties().empty()) return sum;
   for (const ContactPair& pair : contacts.pairs(system, state, {}, PairUse::statics))

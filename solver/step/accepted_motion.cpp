@@ -85,7 +85,7 @@ BlockEnergies move_all(const BlockSystem& system, RunState& state, const StepPro
   LedgerKeeper& ledger = state.ledger;
   BlockEnergies energies{std::vector<double>(system.blocks().size(), 0.0), {}};
   for (int k = 0; k < system.count(); ++k) {
-    if (!system.moving()[at(k)]) continue;
+    if (!system.moving()[at(k)] || !system.owns(k)) continue;
     const BodyStep& body = problem.bodies[at(k)];
     const double work = -body.motion().cwiseProduct(body.elastic.force).sum();
     const double last_energy = ledger.elastic_energy(k);

@@ -13,6 +13,7 @@
 #include "solver/step/accepted_motion.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/ghosts.hpp"
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/velocity_contact.hpp"
 
@@ -132,6 +133,11 @@ class AcceptedContacts {
         const Eigen::VectorXd& ya = problem_.bodies[at(pair.a())].change;
         const Eigen::VectorXd& yb = problem_.bodies[at(pair.b())].change;
         const double work = pair.work(response, ya, yb);
+        if (!system_.owns_pair(pair.a(), pair.b())) {
+          remember({pair, response, result.laws[n], ya, yb, stopped[index]}, work,
+                   bulges.of(pair.a()) + bulges.of(pair.b()));
+          continue;
+        }
         ledger.loads_did(-pair.prescribed_work(response));
         potential.work += work;
         const double held = ContactPair::energies(response).total();
@@ -176,11 +182,12 @@ class AcceptedContacts {
     for (const ContactPair& pair : problem_.pairs) {
       if (pair.goes_on())
         going_on.insert({pair.a(), pair.b()});
-      else if (!pair.tied())
+      else if (!pair.tied() && system_.owns_pair(pair.a(), pair.b()))
         change += pair.start_energy();
     }
     for (const PairRecord& record : state_.records) {
       if (!is_live(record.a, record.b) || going_on.count({record.a, record.b}) > 0) continue;
+      if (!system_.owns_pair(record.a, record.b)) continue;
       for (const PointResponse& response : record.responses) change -= response.energy();
     }
     state_.ledger.found_anew(change);
@@ -202,6 +209,7 @@ class AcceptedContacts {
       }
     std::erase_if(state_.records, [this](const PairRecord& record) { return is_live(record.a, record.b); });
     for (const PairRecord& record : state_.records) {
+      if (!system_.owns_pair(record.a, record.b)) continue;
       count_states(record.responses, report);
       report.penetration = std::max(report.penetration, deepest_of(record.gaps));
     }
@@ -231,9 +239,10 @@ class AcceptedContacts {
       acted[k].force = response.means[k].force;
       if (!stopped.forces.empty()) acted[k].force += stopped.forces[k];
     }
-    if (settings.augmented && !scheme_.is_static())
+    const bool owned = system_.owns_pair(pair.a(), pair.b());
+    if (owned && settings.augmented && !scheme_.is_static())
       tally_friction(acted, laws, scheme_.step, state_.extremes.sliding_friction);
-    if (pair.dilates() && !scheme_.is_static())
+    if (owned && pair.dilates() && !scheme_.is_static())
       tally_slip(pair, response, ya, yb, state_.extremes.dilating_slip);
     history.work += work + stopped.work;
     state_.records.push_back(
@@ -254,6 +263,7 @@ void accept(BlockSystem& system, RunState& state, StepCaches& caches, StepProble
   caches.factors.drop_unused();
   finder.accept_motion();
   const PotentialSum of_blocks = move_blocks(system, state, problem);
+  if (system.share() != nullptr) update_ghosts(system, state);
   const std::vector<StoppedPair> stopped = stop_at_contacts(system, state, caches.factors.islands, problem);
   AcceptedContacts(system, state, problem).take_over(stopped, finder.surfaces(), of_blocks);
   for (auto& [block, next] : problem.carried)
@@ -264,6 +274,7 @@ void accept(BlockSystem& system, RunState& state, StepCaches& caches, StepProble
   extremes.penetration = std::max(extremes.penetration, state.report.penetration);
   note_depths(system, state, problem.audit.depths);
   problem.audit.take_over(state.depths);
+  if (system.share() != nullptr) update_ghost_contacts(system, state);
   note_rest(system, state, finder, problem);
   state.ledger.close_step(system, state.states);
   drop_empty(state.pairs);

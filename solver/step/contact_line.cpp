@@ -28,6 +28,7 @@ double ContactLine::work(double share) const {
   std::vector<double> by_pair(lines_.size(), 0.0);
   parallel_for(problem_.threads(), lines_.size(), [&](std::size_t k) {
     const auto& [start, way] = lines_[k];
+    if (!problem_.ranks().owns_pair(k)) return;
     const std::vector<PointLaw>& laws = problem_.laws()[k];
     for (std::size_t point = 0; point < laws.size(); ++point) {
       const auto column = static_cast<Eigen::Index>(point);
@@ -40,7 +41,7 @@ double ContactLine::work(double share) const {
   for (std::size_t k = 0; k < bolts_.size(); ++k)
     of_bolts -=
         problem_.bolts().bolt(k).force(bolts_[k].start + share * bolts_[k].way, averaged).dot(bolts_[k].way);
-  return std::accumulate(by_pair.begin(), by_pair.end(), of_bolts);
+  return problem_.ranks().sum(std::accumulate(by_pair.begin(), by_pair.end(), of_bolts));
 }
 
 }  // namespace ashlar

@@ -1,13 +1,17 @@
 #include "solver/step/dynamic_step.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
+#include "geometry/index.hpp"
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/accepted_step.hpp"
+#include "solver/step/agreement.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/ghosts.hpp"
 #include "solver/step/position_projection.hpp"
 #include "solver/step/quiet_release.hpp"
 #include "solver/step/restitution.hpp"
@@ -22,7 +26,12 @@ namespace {
 class DynamicStep {
  public:
   DynamicStep(const RunContext& run, double step)
-      : system_(run.system), state_(run.state), caches_(run.caches), fault_(run.fault), step_(step) {
+      : system_(run.system),
+        state_(run.state),
+        caches_(run.caches),
+        fault_(run.fault),
+        shared_(run.shared),
+        step_(step) {
     problem_.found = caches_.contacts.detect(system_, state_, step);
   }
 
@@ -42,9 +51,12 @@ class DynamicStep {
       } else if (const auto share = share_until_impact(system_, state_, step_, problem_);
                  share && cuts_ < settings.max_step_cuts) {
         cut(*share);
-      } else if (const auto broken = broken_block(system_, state_, problem_)) {
+      } else if (const auto broken = first_of_run(system_, broken_block(system_, state_, problem_))) {
         reject_for(*broken);
-      } else if (const auto passing = blocks_that_pass(); !passing.empty()) {
+      } else if (needs_other_ghosts()) {
+        problem_.found = caches_.contacts.detect(system_, state_, step_);
+        pair_up();
+      } else if (const auto passing = blocks_that_pass(); any_of_run(system_, !passing.empty())) {
         meet(passing);
       } else if (can_end()) {
         accept(system_, state_, caches_, std::move(problem_));
@@ -100,14 +112,33 @@ class DynamicStep {
     problem_.pairs = caches_.contacts.pairs(system_, state_, problem_.found, PairUse::motion);
   }
 
+  /// True if blocks have moved so far that ghosts have been found again.
+  bool needs_other_ghosts() {
+    if (shared_ == nullptr) return false;
+    double farthest = 0.0;
+    const ContactFinder& finder = caches_.contacts.finder();
+    for (const int k : shared_->share->own())
+      if (system_.moving()[at(k)])
+        farthest = std::max(farthest, finder.path(k) - shared_->paths[at(k)] +
+                                          finder.motion_bound(k, problem_.bodies[at(k)].motion()));
+    return leave_margin(*shared_, system_, state_, caches_, farthest);
+  }
+
+  /// Of pairs of blocks that this rank owns.
   std::vector<PassingBlocks> blocks_that_pass() {
     const std::vector<BlockState> after = states_after(system_, state_, problem_);
-    return caches_.contacts.check_motion(system_, state_, after, problem_.found);
+    std::vector<PassingBlocks> passing =
+        caches_.contacts.check_motion(system_, state_, after, problem_.found);
+    std::erase_if(passing, [this](const PassingBlocks& pair) {
+      return !system_.owns_pair(pair.blocks[0], pair.blocks[1]);
+    });
+    return passing;
   }
 
   /// Cuts the step to the first touch, or adds contacts where blocks resting on each other's edges would pass.
   void meet(const std::vector<PassingBlocks>& passing) {
-    const double first = passing.front().touch.share;
+    const double first = least_of_run(
+        system_, passing.empty() ? std::numeric_limits<double>::infinity() : passing.front().touch.share);
     if (first > system_.settings().search.smallest_cut && cuts_ < system_.settings().max_step_cuts) {
       reject(state_, step_, RejectionReason::passing);
       cut(first);
@@ -127,7 +158,7 @@ class DynamicStep {
       return false;
     }
     const bool fine = (state_.steps + 1) % system_.settings().depth.fine_interval == 0;
-    if (const auto deep = audit_depths(system_, state_, caches_, problem_, fine)) {
+    if (const auto deep = first_of_run(system_, audit_depths(system_, state_, caches_, problem_, fine))) {
       reject_for(*deep);
       return false;
     }
@@ -146,6 +177,7 @@ class DynamicStep {
   RunState& state_;
   StepCaches& caches_;
   std::optional<StateFault>& fault_;
+  SharedBlocks* shared_;
   double step_;  ///< s
   StepProblem problem_;
   std::optional<SimulationSnapshot> unmoved_;  ///< before blocks were separated
@@ -167,6 +199,7 @@ StepStatus take_step(const RunContext& run, double end_time) {
   if (left < step - time_rounding(settings.time_step, end_time)) step = left;
   if (settings.integrator == Integrator::generalized_alpha && state.accelerations.empty())
     state.accelerations = smooth_accelerations(system, state);
+  if (run.shared != nullptr) find_ghosts_for(*run.shared, system, state, run.caches, step);
   wake_for_loads(system, state, step);
   commit_bolts(state);
   return DynamicStep(run, step).run();

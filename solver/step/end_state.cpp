@@ -6,6 +6,7 @@
 #include <map>
 
 #include "geometry/index.hpp"
+#include "solver/ranks/block_share.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -37,12 +38,13 @@ Audit measure_depths(const BlockSystem& system, StepCaches& caches, const std::v
                      bool fine, const KnownDepths& known) {
   const SimulationSettings& settings = system.settings();
   const ContactFinder& finder = caches.contacts.finder();
-  const AuditScope scope{[&finder](int a, int b) { return !finder.leaves_out(a, b); },
+  const AuditScope scope{[&](int a, int b) { return !finder.leaves_out(a, b) && system.concerns(a, b); },
                          system.moving(),
                          (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
                          settings.threads,
                          settings.cached_motion(),
-                         fine};
+                         fine,
+                         system.away()};
   return caches.audit.run(system.blocks(), states, finder.surfaces(), scope, known);
 }
 
@@ -74,7 +76,7 @@ std::optional<StateFault> too_deep_of(const BlockSystem& system, const PairHisto
 std::optional<StateFault> broken_block(const BlockSystem& system, const RunState& state,
                                        const StepProblem& problem) {
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
-    if (!system.moving()[k]) continue;
+    if (!system.moving()[k] || !system.owns(static_cast<int>(k))) continue;
     const Eigen::MatrixX3d position = state.states[k].position + problem.bodies[k].motion();
     const int block = static_cast<int>(k);
     if (is_lost(system.blocks()[k], problem.bodies[k], position, system.settings().depth.lost_share))
@@ -144,8 +146,10 @@ void note_depths(const BlockSystem& system, RunState& state, const std::vector<P
   }
 }
 
-RejectionCause cause_of_failure(const BlockSystem& system, const RunState& state, const StepProblem& problem,
-                                IslandStatus status) {
+namespace {
+
+RejectionCause cause_here(const BlockSystem& system, const RunState& state, const StepProblem& problem,
+                          IslandStatus status) {
   // A step that overflows cannot converge.
   if (const auto broken = broken_block(system, state, problem);
       broken && broken->reason == RejectionReason::not_finite)
@@ -158,6 +162,20 @@ RejectionCause cause_of_failure(const BlockSystem& system, const RunState& state
       });
   if (found == problem.results.end()) return {reason, std::nullopt};
   return {reason, StateFault{reason, found->alternating}};
+}
+
+}  // namespace
+
+RejectionCause cause_of_failure(const BlockSystem& system, const RunState& state, const StepProblem& problem,
+                                IslandStatus status) {
+  const RejectionCause here = cause_here(system, state, problem, status);
+  if (system.share() == nullptr) return here;
+  const std::vector<RejectionCause> causes = values_of_ranks(system.share()->ranks(), here);
+  for (const RejectionCause& cause : causes)
+    if (cause.reason == RejectionReason::not_finite) return cause;
+  for (const RejectionCause& cause : causes)
+    if (cause.fault) return cause;
+  return causes.front();
 }
 
 void reject(RunState& state, double step, RejectionReason reason) {

@@ -9,13 +9,14 @@
 #include "geometry/index.hpp"
 #include "solver/step/island.hpp"
 #include "solver/step/island_bolts.hpp"
+#include "solver/step/island_ranks.hpp"
 
 namespace ashlar {
 
 /// Residual of the equations of motion at a guess.
 struct Residual {
   Eigen::VectorXd force;         ///< N, in the island's equations
-  std::vector<double> relative;  ///< norm on each body over its tolerance
+  std::vector<double> relative;  ///< norm on each body over its tolerance; 0 of ghosts
   double largest = 0.0;          ///< of `relative`; <= 1: converged
   double sum = 0.0;  ///< of `relative`: decreases from guess to guess where the largest does not yet
   double largest_by_force = 0.0;  ///< largest norm on a body over the largest force on it
@@ -49,7 +50,8 @@ enum class Predictor {
 class IslandProblem {
  public:
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-                const TimeScheme& scheme, const SimulationSettings& settings, IslandSolvers::Entry& solver);
+                const TimeScheme& scheme, const SimulationSettings& settings, IslandSolvers::Entry& solver,
+                const IslandRanks& ranks = IslandRanks::one_rank());
 
   void predict(Predictor guess);
   /// Elastic and contact responses at the present guess.
@@ -64,6 +66,10 @@ class IslandProblem {
   /// Adds forces of pairs in the island's equations, N. @param responses of the island's pairs
   void add_contact_forces(const std::vector<PairResponse>& responses, Eigen::VectorXd& sum) const;
   void apply(const Eigen::VectorXd& change, double share);
+  /// Inner product of vectors in the island's equations.
+  [[nodiscard]] double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
+    return ranks_.dot(x, y);
+  }
   /// A change in the island's equations as one of the unknowns. @return by body
   [[nodiscard]] std::vector<Eigen::VectorXd> changes(const Eigen::VectorXd& change) const;
   /// Motion of a pair's points by changes of the bodies, in their frames, m. @return (3, #points)
@@ -90,6 +96,10 @@ class IslandProblem {
   /// Worker threads for loops over pairs; results are independent of their number.
   [[nodiscard]] int threads() const;
 
+  /// The part of this rank in an island that several ranks share.
+  [[nodiscard]] const IslandRanks& ranks() const { return ranks_; }
+  /// Number of pairs of all ranks.
+  [[nodiscard]] std::size_t all_pairs() const { return all_pairs_; }
   [[nodiscard]] std::size_t pairs() const { return island_.pairs.size(); }
   [[nodiscard]] const ContactPair& pair(std::size_t k) const;
   /// Replaces a pair of the island.
@@ -130,6 +140,8 @@ class IslandProblem {
   const SimulationSettings& settings_;
   const TimeScheme& scheme_;
   IslandSolvers::Entry& solver_;
+  const IslandRanks& ranks_;
+  std::size_t all_pairs_ = 0;
   /// State at which the rows of a pair were updated.
   struct Followed {
     Eigen::VectorXd change_a;

@@ -199,9 +199,15 @@ Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side,
     add_pairs(products, !assembled_, x, force);
     return solver_.factor->solve(force, false);
   };
-  const KrylovSolution found = gmres(preconditioned, solver_.factor->solve(right_side, false),
-                                     settings.krylov_tolerance, settings.old_factor_iterations);
-  return found.converged && right_side.dot(found.x) > 0.0 ? found.x : Eigen::VectorXd();
+  const KrylovSolution found =
+      gmres(preconditioned, solver_.factor->solve(right_side, false), settings.krylov_tolerance,
+            settings.old_factor_iterations, inner_product());
+  return found.converged && problem_.dot(right_side, found.x) > 0.0 ? found.x : Eigen::VectorXd();
+}
+
+InnerProduct IslandTangent::inner_product() const {
+  if (!problem_.ranks().shared()) return {};
+  return [this](const Eigen::VectorXd& x, const Eigen::VectorXd& y) { return problem_.dot(x, y); };
 }
 
 Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool coupled) {
@@ -216,7 +222,7 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   if (coupled)
     couplings = products_of(
         [&](std::size_t k) { return problem_.pair(k).rows().couplings(problem_.responses()[k]); });
-  if (couplings.empty()) return solver_.factor->solve(right_side);
+  if (!problem_.ranks().any(!couplings.empty())) return solver_.factor->solve(right_side);
   const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
     add_pairs(couplings, false, x, force);
@@ -224,7 +230,7 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   };
   const IterationSettings& settings = problem_.settings().iteration;
   return gmres(with_couplings, solver_.factor->solve(right_side), settings.krylov_tolerance,
-               settings.krylov_iterations)
+               settings.krylov_iterations, inner_product())
       .x;
 }
 

@@ -13,6 +13,7 @@
 #include <functional>
 #include <vector>
 
+#include "solver/linear/gmres.hpp"
 #include "solver/step/island_equations.hpp"
 
 namespace ashlar {
@@ -47,6 +48,8 @@ class IslandTangent {
   [[nodiscard]] FactorStatus factorize_assembled(bool kept);
   /// True if the products of one solution with an old factor cost less than assembly of the matrix.
   [[nodiscard]] bool products_pay() const;
+  /// Of vectors that several ranks share; empty: one rank has all.
+  [[nodiscard]] InnerProduct inner_product() const;
   /// w s (1 + k), weight of the stiffness of blocks.
   [[nodiscard]] double weight_of_blocks() const;
   /// w b, weight of the dashpots of quiet faces.

@@ -32,7 +32,7 @@ class OpenClose {
         failure_(problem),
         settings_(problem.settings()),
         result_(result),
-        may_split_(!problem.scheme().is_static() && problem.pairs() >= many_pairs) {}
+        may_split_(!problem.scheme().is_static() && problem.all_pairs() >= many_pairs) {}
 
   /// Blocks of the pair whose points have changed state most often; -1: none did.
   [[nodiscard]] BlockPair alternating() const {
@@ -86,7 +86,8 @@ class OpenClose {
 
   /// Updates rows of contact points to where they act. @return true if any has changed
   bool follow() {
-    return followed_ = !problem_.scheme().is_static() && problem_.follow_contacts(settings_.followed_gap());
+    followed_ = !problem_.scheme().is_static() && problem_.follow_contacts(settings_.followed_gap());
+    return followed_ = problem_.ranks().any(followed_);
   }
 
   /// Residual of the present guess, evaluated unless it is known.
@@ -143,8 +144,8 @@ class OpenClose {
       if (problem_.scheme().is_static() && residual.sum < nearest_.sum)
         nearest_ = {residual.sum, residual.largest_by_force, problem_.guess()};
       std::vector<ContactState> states = problem_.states();
-      const bool as_before = !seen.empty() && states == seen.back();
-      if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) {
+      const auto [as_before, repeated] = compare_states(problem_.ranks(), states, seen);
+      if (!as_before && repeated) {
         note_changes(seen.back(), states);
         return Outcome::stalled;
       }
@@ -167,7 +168,7 @@ class OpenClose {
         respond();
       } else {
         const double share =
-            search(change, residual.force.dot(change), settings_.iteration.newton_overshoot, 1.0);
+            search(change, problem_.dot(residual.force, change), settings_.iteration.newton_overshoot, 1.0);
         if (may_split_ && k <= hard_iterations && share < hard_share) return Outcome::hard;
       }
     }
@@ -248,11 +249,24 @@ class OpenClose {
 
   /// Extrapolated limit of a repetition whose changes shrink, grow or alternate by a factor, in units of the last
   /// one. Forces are bounded: a growing change meets another solution ahead.
-  static double way_on(const Eigen::VectorXd& change, const Eigen::VectorXd& last_change) {
+  [[nodiscard]] double way_on(const Eigen::VectorXd& change, const Eigen::VectorXd& last_change) const {
     constexpr double farthest = 10.0;
-    const double last = last_change.squaredNorm();
-    const double factor = last > 0.0 ? change.dot(last_change) / last : 0.0;
+    const double last = product_of_bounds(last_change, last_change);
+    const double factor = last > 0.0 ? product_of_bounds(change, last_change) / last : 0.0;
     return 1.0 / std::max(1.0 / farthest, 1.0 - factor);
+  }
+
+  /// Inner product of values of all points.
+  [[nodiscard]] double product_of_bounds(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
+    if (!problem_.ranks().shared()) return x.dot(y);
+    double sum = 0.0;
+    Eigen::Index start = 0;
+    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+      const auto points = static_cast<Eigen::Index>(problem_.laws()[pair].size());
+      if (problem_.ranks().owns_pair(pair)) sum += x.segment(start, points).dot(y.segment(start, points));
+      start += points;
+    }
+    return problem_.ranks().sum(sum);
   }
 
   /// The minimum with the present bounds held. @param target of Residual::largest
@@ -264,7 +278,7 @@ class OpenClose {
       if (!std::isfinite(residual.largest)) return Outcome::stalled;
       if (tangent_.factorize() != FactorStatus::success) return Outcome::singular;
       const Eigen::VectorXd change = tangent_.solve(residual.force, false);
-      search(change, residual.force.dot(change), settings_.iteration.line_search_tolerance, 16.0);
+      search(change, problem_.dot(residual.force, change), settings_.iteration.line_search_tolerance, 16.0);
     }
     return Outcome::stalled;
   }
@@ -289,14 +303,14 @@ class OpenClose {
       at = share;
       respond();
       known_residual_ = problem_.residual();
-      return known_residual_->force.dot(change);
+      return problem_.dot(known_residual_->force, change);
     };
     const double work_at_end = work(1.0);
     const double enough = tolerance * work_at_start;
     if (!(work_at_start > 0.0) || std::abs(work_at_end) <= enough) return at;
     if (work_at_end > 0.0 && farthest <= 1.0) return at;
     std::optional<ContactLine> line;  // With few contacts, evaluation of all forces is as fast.
-    if (problem_.pairs() >= many_pairs) line.emplace(problem_, change, 1.0);
+    if (problem_.all_pairs() >= many_pairs) line.emplace(problem_, change, 1.0);
     const auto contacts = [&line](double share) { return line ? line->work(share) : 0.0; };
     OnLine low{0.0, work_at_start, contacts(0.0)};
     OnLine high{1.0, work_at_end, contacts(1.0)};

@@ -24,7 +24,7 @@ std::optional<Residual> take_best_predictor(IslandProblem& problem) {
   // Relative to the largest force on each body: from a smaller residual Newton's iteration converges as from the best
   // predictor.
   constexpr double little = 0.1;
-  if (problem.scheme().is_static() || problem.pairs() == 0) {
+  if (problem.scheme().is_static() || problem.all_pairs() == 0) {
     problem.predict(Predictor::free_motion);
     problem.respond();
     return std::nullopt;
@@ -53,7 +53,10 @@ std::optional<Residual> take_best_predictor(IslandProblem& problem) {
   Residual inertial = residual_of(problem, Predictor::inertial);
   compare(Predictor::inertial, std::move(inertial), problem.set_aside());
   compare(Predictor::at_rest, std::move(at_rest), std::move(evaluated_at_rest));
-  if (std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) != kinds.end()) {
+  // Ghosts start as their owners choose. With several ranks the choices of all are not compared.
+  problem.ranks().update_ghosts(own);
+  if (problem.ranks().shared() ||
+      std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) != kinds.end()) {
     problem.set_guess(own);
     problem.respond();
     Residual mixed = problem.residual();

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/step/agreement.hpp"
+#include "solver/step/shared_island.hpp"
 
 namespace ashlar {
 namespace {
@@ -15,8 +18,12 @@ template <class Condition>
 bool wake_if(BlockSystem& system, RunState& state, const Condition& wakes) {
   std::vector<SleepingIsland>& islands = state.sleep.islands;
   std::vector<SleepingIsland> still;
+  std::vector<bool> woken;
+  for (const SleepingIsland& island : islands) woken.push_back(wakes(island));
+  woken = any_of_run(system, woken);
+  std::size_t next = 0;
   for (SleepingIsland& island : islands) {
-    if (!wakes(island)) {
+    if (!woken[next++]) {
       still.push_back(std::move(island));
       continue;
     }
@@ -54,11 +61,12 @@ bool fades(const SimulationSettings& settings, const BlockRest& rest, double che
 }
 
 /// Adds a step to the paths of blocks. @return by block, velocities of their steady parts
-std::vector<Eigen::MatrixX3d> note_paths(const ContactFinder& finder, const StepProblem& problem,
-                                         Sleep& sleep) {
+std::vector<Eigen::MatrixX3d> note_paths(const BlockSystem& system, const ContactFinder& finder,
+                                         const StepProblem& problem, Sleep& sleep) {
   std::vector<Eigen::MatrixX3d> velocities(problem.bodies.size());
   for (const Island& island : problem.islands) {
     for (const int block : island.bodies) {
+      if (!system.owns(block)) continue;
       BlockRest& rest = sleep.rests[at(block)];
       Eigen::MatrixX3d motion = problem.bodies[at(block)].motion();
       const Eigen::MatrixX3d steady = steady_part(motion, rest);
@@ -70,19 +78,81 @@ std::vector<Eigen::MatrixX3d> note_paths(const ContactFinder& finder, const Step
   return velocities;
 }
 
-void put_to_sleep(const BlockSystem& system, RunState& state, const StepProblem& problem,
-                  std::size_t island) {
-  SleepingIsland sleeping{problem.islands[island].bodies, 0.0};
-  for (const PairResponse& response : problem.results[island].responses)
-    sleeping.held += ContactPair::energies(response).total();
-  for (const BoltResult& bolt : problem.results[island].bolts) sleeping.held += bolt.response.end.stored;
-  for (const int block : sleeping.blocks) {
+/// The part of an island that a rank owns.
+struct RestingPart {
+  int first = -1;           ///< lowest block of the whole island
+  std::vector<int> blocks;  ///< increasing
+  double held = 0.0;        ///< energy of springs of its pairs, J
+  bool rests = true;        ///< all blocks do
+};
+
+/// Parts of all islands, by their first blocks. @param rests (block) -> bool, of own blocks
+template <class Rests>
+std::map<int, RestingPart> parts_of(const BlockSystem& system, const StepProblem& problem,
+                                    const Rests& rests) {
+  std::map<int, RestingPart> parts;
+  for (std::size_t k = 0; k < problem.islands.size(); ++k) {
+    const Island& island = problem.islands[k];
+    const bool shared = static_cast<int>(k) == problem.shared;
+    std::map<int, int> first;  // of a body's island
+    if (shared) first = first_blocks(system, island, problem.pairs);
+    const auto part_of = [&](int block) -> RestingPart& {
+      return parts[shared ? first.at(block) : island.bodies.front()];
+    };
+    for (const int block : island.bodies) {
+      RestingPart& part = part_of(block);
+      part.first = shared ? first.at(block) : island.bodies.front();
+      if (!system.owns(block)) continue;
+      part.blocks.push_back(block);
+      part.rests = part.rests && rests(block);
+    }
+    for (std::size_t n = 0; n < island.pairs.size(); ++n) {
+      const ContactPair& pair = problem.pairs[at(island.pairs[n])];
+      if (!system.owns_pair(pair.a(), pair.b())) continue;
+      part_of(system.moving()[at(pair.a())] ? pair.a() : pair.b()).held +=
+          ContactPair::energies(problem.results[k].responses[n]).total();
+    }
+    for (const BoltResult& bolt : problem.results[k].bolts)
+      parts[island.bodies.front()].held += bolt.response.end.stored;
+  }
+  return parts;
+}
+
+/// Islands whose blocks all rest, with their blocks on all ranks and the energy held here, in order.
+template <class Rests>
+std::vector<RestingPart> resting_islands(const BlockSystem& system, const StepProblem& problem,
+                                         const Rests& rests) {
+  std::map<int, RestingPart> parts = parts_of(system, problem, rests);
+  if (system.share() != nullptr) {
+    const Ranks& ranks = system.share()->ranks();
+    const auto of_ranks = values_of_ranks(system.share()->ranks(), parts);
+    for (int rank = 0; rank < ranks.count(); ++rank) {
+      if (rank == ranks.own()) continue;
+      for (const auto& [first, other] : of_ranks[at(rank)]) {
+        RestingPart& part = parts[first];
+        part.first = first;
+        part.blocks.insert(part.blocks.end(), other.blocks.begin(), other.blocks.end());
+        part.rests = part.rests && other.rests;
+      }
+    }
+  }
+  std::vector<RestingPart> resting;
+  for (auto& [first, part] : parts) {
+    if (!part.rests) continue;
+    std::sort(part.blocks.begin(), part.blocks.end());
+    resting.push_back(std::move(part));
+  }
+  return resting;
+}
+
+void put_to_sleep(const BlockSystem& system, RunState& state, RestingPart&& island) {
+  for (const int block : island.blocks) {
     BlockState& still = state.states[at(block)];
-    state.ledger.integrator_took(system.blocks()[at(block)].kinetic_energy(still));
+    if (system.owns(block)) state.ledger.integrator_took(system.blocks()[at(block)].kinetic_energy(still));
     still.velocity.setZero();
     if (!state.accelerations.empty()) state.accelerations[at(block)].setZero();
   }
-  state.sleep.islands.push_back(std::move(sleeping));
+  state.sleep.islands.push_back({std::move(island.blocks), island.held});
   ++state.log.counts.islands_put_to_sleep;
 }
 
@@ -129,8 +199,9 @@ void note_rest(BlockSystem& system, RunState& state, const ContactFinder& finder
   const RestSettings& settings = system.settings().rest;
   Sleep& sleep = state.sleep;
   if (!settings.sleeps || problem.scheme.is_static() || !dissipates(system.settings())) return;
-  state.log.counts.sleeping_block_steps += static_cast<std::uint64_t>(sleep.sleeping_blocks());
-  std::vector<Eigen::MatrixX3d> velocities = note_paths(finder, problem, sleep);
+  for (const SleepingIsland& island : sleep.islands)
+    for (const int block : island.blocks) state.log.counts.sleeping_block_steps += system.owns(block) ? 1 : 0;
+  std::vector<Eigen::MatrixX3d> velocities = note_paths(system, finder, problem, sleep);
   sleep.window_time += problem.scheme.step;
   if (++sleep.window_steps < settings.window) return;
   const auto rests = [&](int block) {
@@ -139,12 +210,11 @@ void note_rest(BlockSystem& system, RunState& state, const ContactFinder& finder
            unbalanced_share(sleep, problem.bodies[at(block)], rest, velocities[at(block)]) <=
                settings.unbalanced_share;
   };
-  for (std::size_t k = 0; k < problem.islands.size(); ++k) {
-    const std::vector<int>& blocks = problem.islands[k].bodies;
-    if (std::all_of(blocks.begin(), blocks.end(), rests)) put_to_sleep(system, state, problem, k);
-  }
+  for (RestingPart& island : resting_islands(system, problem, rests))
+    put_to_sleep(system, state, std::move(island));
   for (const Island& island : problem.islands) {
     for (const int block : island.bodies) {
+      if (!system.owns(block)) continue;
       BlockRest& rest = sleep.rests[at(block)];
       rest.last_path = std::exchange(rest.path, 0.0);
       rest.velocity = std::move(velocities[at(block)]);

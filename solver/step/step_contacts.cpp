@@ -8,9 +8,10 @@
 #include "geometry/index.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
 #include "mechanics/contact/reference_face.hpp"
-#include "solver/contact/energy_bounds.hpp"
 #include "solver/parallel_for.hpp"
+#include "solver/ranks/block_share.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/step/known_contacts.hpp"
 #include "solver/step/step_problem.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -141,8 +142,10 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
 
 StepContacts::StepContacts(const BlockSystem& system, ContactObserver observer)
     : observer_(std::move(observer)),
-      finder_(system.blocks(), system.settings(), system.left_out(), system.absent(), observer_),
-      order_(system.blocks(), system.settings().gravity_at(0.0)) {}
+      finder_(system.blocks(), system.settings(), system.left_out(), system.away(), observer_,
+              system.share() ? std::optional(system.share()->axes()) : std::nullopt),
+      order_(system.share() ? system.share()->places() : places_of(system.blocks()),
+             system.settings().gravity_at(0.0)) {}
 
 std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockSystem& system,
                                                                     const RunState& state,
@@ -184,6 +187,7 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   const std::vector<NearPair> near = finder_.near_pairs(state.states, motion, state.pairs);
   std::vector<std::shared_ptr<const KeptContacts>> kept(near.size());
   if (step > 0.0) kept = this->kept(system, state, near);
+  if (system.share() != nullptr) drop_unknown_elsewhere(system, near, kept);
   std::vector<PairContacts> known_contacts(near.size());
   KnownContacts known(near.size(), nullptr);
   for (std::size_t n = 0; n < near.size(); ++n) {
@@ -249,26 +253,9 @@ void StepContacts::remove_internal_edges_of(const BlockSystem& system, const Run
   }
 }
 
-ContactPair StepContacts::kept_pair(const BlockSystem& system, const RunState& state,
-                                    const FoundContacts& found, JointLaw law) {
-  const auto [a, b] = found.blocks;
-  const PairHistory& known = history_of(state.pairs, found.blocks);
-  const KeptContacts& kept = *found.kept;
-  law.rounding = kept.cache->law.rounding;
-  PatchStart start;
-  start.continues = true;
-  if (law.augmented) start.frozen = known.taken;
-  return {
-      PairBodies{a, b, body_at_start(system, state, a, nullptr), body_at_start(system, state, b, nullptr)},
-      law,
-      {kept.points, kept.cache->found.cuts, kept.cache->found.turning, kept.cache->rows, kept.cache},
-      known.memory.of_same(kept.points),
-      start};
-}
-
-std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, const RunState& state,
-                                                 const FoundContacts& found, JointLaw law, PairUse use,
-                                                 const SurfaceContinuation& covered) const {
+std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, const RunState& state,
+                                                  const FoundContacts& found, JointLaw law, PairUse use,
+                                                  const SurfaceContinuation& covered) const {
   const PairKey& blocks = found.blocks;
   const PairContacts& contacts = found.contacts;
   const auto [a, b] = blocks;
@@ -311,15 +298,14 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
     cache.rows = patch.rows;
     patch.cache = std::make_shared<const ContactCache>(std::move(cache));
   }
-  return ContactPair(PairBodies{a, b, body_a, body_b}, law, std::move(patch), std::move(memory), start);
+  return PairRecipe{blocks, law, std::move(patch), std::move(memory), start};
 }
 
 std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState& state,
-                                             const std::vector<FoundContacts>& found, PairUse use) const {
+                                             const std::vector<FoundContacts>& found, PairUse use) {
   const Stopwatch watch(state.log.seconds.contact_points);
   const SimulationSettings& settings = system.settings();
   const bool goes_on = use == PairUse::motion && state.has_begun();
-  std::vector<ContactPair> pairs;
   const bool all_kept =
       std::all_of(found.begin(), found.end(), [](const FoundContacts& pair) { return pair.kept != nullptr; });
   const std::vector<FoundContacts> none;
@@ -329,31 +315,39 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   // Laws are user functions, which need not be thread-safe.
   std::vector<JointLaw> laws;
   for (const FoundContacts& pair : found) laws.push_back(law_of(system, pair.blocks));
-  std::vector<std::optional<ContactPair>> made(found.size());
+  std::vector<std::optional<PairRecipe>> made(found.size());
   parallel_for(settings.threads, found.size(), [&](std::size_t n) {
-    if (found[n].kept == nullptr) {
-      made[n] = pair_of(system, state, found[n], laws[n], use, covered);
-    } else if (!found[n].kept->points.empty()) {
-      made[n] = kept_pair(system, state, found[n], laws[n]);
+    const auto& [blocks, contacts, reach, kept] = found[n];
+    if (!system.owns_pair(blocks[0], blocks[1])) return;
+    if (kept == nullptr) {
+      made[n] = recipe_of(system, state, found[n], laws[n], use, covered);
+    } else if (!kept->points.empty()) {
+      made[n] = kept_recipe(state, blocks, *kept, laws[n]);
     }
   });
+  std::vector<PairRecipe> recipes;
   for (std::size_t n = 0; n < found.size(); ++n) {
-    if (made[n] || found[n].kept != nullptr || !may_last(system, found[n], use)) continue;
-    state.pairs[found[n].blocks].cache = std::make_shared<const ContactCache>(
-        as_found(finder_, state, {found[n].blocks, found[n].reach}, laws[n], found[n].contacts));
+    if (made[n]) {
+      state.log.counts.contact_points += made[n]->patch.points.size();
+      recipes.push_back(std::move(*made[n]));
+    } else if (found[n].kept == nullptr && may_last(system, found[n], use)) {
+      state.pairs[found[n].blocks].cache = std::make_shared<const ContactCache>(
+          as_found(finder_, state, {found[n].blocks, found[n].reach}, laws[n], found[n].contacts));
+    }
   }
-  for (std::optional<ContactPair>& pair : made) {
-    if (!pair) continue;
-    state.log.counts.contact_points += pair->points().size();
-    pairs.push_back(std::move(*pair));
+  if (system.share() != nullptr) {
+    const auto law = [&system](const PairKey& blocks) { return law_of(system, blocks); };
+    for (PairRecipe& recipe : border_.exchange(system, state, recipes, law))
+      recipes.push_back(std::move(recipe));
+    std::sort(recipes.begin(), recipes.end(),
+              [](const PairRecipe& x, const PairRecipe& y) { return x.blocks < y.blocks; });
   }
-  const bool all_go_on =
-      std::all_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.goes_on(); });
-  if (goes_on && !all_go_on) {
-    const std::vector<SpringEnergy> bounds = energy_bounds(pairs, state.pairs, system.moving());
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-      if (!pairs[k].goes_on()) pairs[k].hold_at_most(bounds[k]);
-  }
+  std::vector<std::optional<ContactPair>> assembled(recipes.size());
+  parallel_for(settings.threads, recipes.size(),
+               [&](std::size_t n) { assembled[n] = make_pair(system, state, std::move(recipes[n])); });
+  std::vector<ContactPair> pairs;
+  for (std::optional<ContactPair>& pair : assembled) pairs.push_back(std::move(*pair));
+  if (goes_on) bound_energies(system, state, pairs);
   for (const TiedBlocks& tied : system.ties()) {
     if (!system.moving()[at(tied.a)] && !system.moving()[at(tied.b)]) continue;
     pairs.emplace_back(PairBodies{tied.a, tied.b, body_at_start(system, state, tied.a, nullptr),

@@ -14,6 +14,7 @@
 #include "solver/contact/surface_continuation.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
+#include "solver/step/border_pairs.hpp"
 
 namespace ashlar {
 
@@ -37,9 +38,11 @@ class StepContacts {
   /// All contacts at the present state. @param step s, for the search distance of moving blocks; 0: in an iteration
   /// of a static analysis
   [[nodiscard]] std::vector<FoundContacts> detect(const BlockSystem& system, RunState& state, double step);
-  /// Contact pairs of a list, then ties.
+  /// Contact pairs of a list, then ties. With several ranks those of own blocks; collective then.
   [[nodiscard]] std::vector<ContactPair> pairs(const BlockSystem& system, RunState& state,
-                                               const std::vector<FoundContacts>& found, PairUse use) const;
+                                               const std::vector<FoundContacts>& found, PairUse use);
+  /// To be called on all ranks when ghosts have changed or a state was restored.
+  void forget_border_pairs() { border_.forget(); }
   /// Blocks that would pass through each other on the way to new states, ordered by time.
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const BlockSystem& system, RunState& state,
                                                         const std::vector<BlockState>& after,
@@ -59,16 +62,13 @@ class StepContacts {
   /// Removes contacts at internal edges from those that were detected again.
   void remove_internal_edges_of(const BlockSystem& system, const RunState& state,
                                 std::vector<FoundContacts>& found);
-  /// Makes the pair of cached contacts.
-  [[nodiscard]] static ContactPair kept_pair(const BlockSystem& system, const RunState& state,
-                                             const FoundContacts& found, JointLaw law);
   /// Retractions of the step, computed at the first call.
   const Retractions& retractions(const RunState& state, const std::vector<bool>& moving,
                                  const std::vector<FoundContacts>& found);
-  /// Makes the pair of one entry of a list; empty if its contacts have no points.
-  [[nodiscard]] std::optional<ContactPair> pair_of(const BlockSystem& system, const RunState& state,
-                                                   const FoundContacts& found, JointLaw law, PairUse use,
-                                                   const SurfaceContinuation& covered) const;
+  /// Makes the recipe of one entry of a list; empty if its contacts have no points.
+  [[nodiscard]] std::optional<PairRecipe> recipe_of(const BlockSystem& system, const RunState& state,
+                                                    const FoundContacts& found, JointLaw law, PairUse use,
+                                                    const SurfaceContinuation& covered) const;
   /// Elastic compression of blocks at the present state.
   [[nodiscard]] static BlockCompression compression_of(const BlockSystem& system, const RunState& state);
 
@@ -76,6 +76,7 @@ class StepContacts {
   ContactFinder finder_;
   ReferenceOrder order_;
   std::optional<Retractions> retractions_;  ///< of the step
+  BorderPairs border_;
 };
 
 }  // namespace ashlar

@@ -5,6 +5,8 @@
 
 #include "geometry/index.hpp"
 #include "solver/parallel_for.hpp"
+#include "solver/ranks/block_share.hpp"
+#include "solver/step/shared_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -51,6 +53,7 @@ std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& 
   std::vector<std::pair<std::size_t, IslandSolvers::Entry*>> left;
   for (std::size_t k = 0; k < results.size(); ++k) {
     const Island& island = problem.islands[k];
+    if (static_cast<int>(k) == problem.shared) continue;
     std::optional<IslandResult> lone;
     if (island.bodies.size() == 1 && island.pairs.empty() && island.bolts.empty())
       lone = solve_lone_body(problem.bodies[at(island.bodies[0])], scheme, settings, factors.lone);
@@ -68,6 +71,14 @@ std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& 
   return results;
 }
 
+/// Gets the changes of ghosts. @return the worst status of any rank
+IslandStatus agree_on_end(const BlockSystem& system, IslandStatus status, std::vector<BodyStep>& bodies) {
+  const BlockShare& share = *system.share();
+  share.to_ghosts([&](int block) { return system.moving()[at(block)] ? &bodies[at(block)].change : nullptr; },
+                  [&](int block, Eigen::VectorXd change) { bodies[at(block)].change = std::move(change); });
+  return static_cast<IslandStatus>(max_of_ranks(share.ranks(), static_cast<double>(status)));
+}
+
 }  // namespace
 
 IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme, FactorCache& factors,
@@ -81,6 +92,9 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   problem.results.clear();
   pose_step(system, state, scheme, problem);
   problem.results = solve_islands(problem, scheme, system.settings(), factors);
+  if (problem.shared >= 0)
+    problem.results[at(problem.shared)] = solve_shared_island(system, problem.islands[at(problem.shared)],
+                                                              problem.bodies, problem.pairs, scheme);
   SimulationCounts& counts = state.log.counts;
   IslandStatus status = IslandStatus::converged;
   for (IslandResult& result : problem.results) {
@@ -89,7 +103,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
     counts.open_close_fallbacks += static_cast<std::uint64_t>(result.fallbacks);
     if (status == IslandStatus::converged) status = result.status;
   }
-  return status;
+  return system.share() == nullptr ? status : agree_on_end(system, status, problem.bodies);
 }
 
 void pose_step(const BlockSystem& system, const RunState& state, const TimeScheme& scheme,
@@ -98,6 +112,7 @@ void pose_step(const BlockSystem& system, const RunState& state, const TimeSchem
   problem.bolts = step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
   problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
   validate(problem.islands, system.moving(), problem.pairs);
+  problem.shared = system.share() == nullptr ? -1 : join_shared_islands(system, problem.islands);
   problem.bodies = prepare_bodies(system, state, scheme);
   for (ContactPair& pair : problem.pairs) {
     pair.begin_step(system.blocks()[at(pair.a())], system.blocks()[at(pair.b())],

@@ -1,4 +1,4 @@
-// All numbers of a value that a checkpoint has to store (solver/run/byte_archive.hpp), to be looked at and changed one by
+// All numbers of a value that a checkpoint has to store (solver/byte_archive.hpp), to be looked at and changed one by
 // one.
 #pragma once
 

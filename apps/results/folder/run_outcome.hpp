@@ -6,6 +6,7 @@
 
 #include "apps/results/folder/run_status.hpp"
 #include "apps/results/frames/largest_values.hpp"
+#include "solver/run/gathered_run.hpp"
 
 namespace ashlar {
 
@@ -33,6 +34,7 @@ struct RunOutcome {
   LargestValues largest;
   std::vector<FinishedStage> stages;  ///< those that have begun, including the present one; empty: not
                                       ///< written
+  std::vector<RankWork> ranks = {};   ///< of processes that shared the run, by rank; empty: there were none
 };
 
 }  // namespace ashlar

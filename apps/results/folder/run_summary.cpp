@@ -160,7 +160,7 @@ BrokenJoints broken_joints(const Simulation& simulation) {
 
 nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& identity,
                                    const BuiltSimulation& built, const RunOutcome& outcome) {
-  const auto& [status, message, seconds, frames, largest, stages] = outcome;
+  const auto& [status, message, seconds, frames, largest, stages, ranks] = outcome;
   const Simulation& simulation = built.simulation;
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
   summary["status"] = to_string(status);

@@ -1,4 +1,4 @@
-// Hash of the stored layout of a type (solver/run/byte_archive.hpp). It changes as soon as a member of any contained
+// Hash of the stored layout of a type (solver/byte_archive.hpp). It changes as soon as a member of any contained
 // struct is added, removed, moved or changed in type. It does not change if members of the same type are swapped, or
 // change their meaning.
 #pragma once
@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "solver/run/byte_archive.hpp"
+#include "solver/byte_archive.hpp"
 
 namespace ashlar {
 

@@ -19,6 +19,7 @@
 #include "apps/scene/build/stress_field.hpp"
 #include "apps/scene/build/tied_joints.hpp"
 #include "apps/scene/build/water_loads.hpp"
+#include "apps/scene/check/rank_checks.hpp"
 #include "apps/scene/check/turned_supports.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
@@ -29,7 +30,6 @@
 
 namespace ashlar {
 namespace {
-
 template <class Where>
 BlockPlace place_of(const Where& where) {
   if (const auto* plane = std::get_if<ScenePlane>(&where)) return Plane{plane->point, plane->normal};
@@ -320,15 +320,17 @@ void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics&
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
                                                 Diagnostics& diagnostics, Preparation* preparation,
-                                                const TrialFactors& factors) {
+                                                const TrialFactors& factors, const RunRanks* ranks) {
   const Scene& scene = loaded.scene;
+  if (ranks != nullptr && ranks->several()) check_for_ranks(scene, diagnostics);
   std::vector<BlockModel> blocks;
   std::vector<InitialMotion> motions;
   BlockPartsLibrary parts;
   const std::vector<bool> multiplied = multiplied_blocks(scene);
   if (preparation != nullptr && !scene.water.empty()) preparation->phase("pressure of water");
   const auto water = std::make_shared<const WaterLoads>(loaded, diagnostics);
-  const QuietBoundaries boundaries(scene, loaded.solids, time_settings(scene.analysis), diagnostics);
+  const auto boundaries = std::make_shared<const QuietBoundaries>(scene, loaded.solids,
+                                                                  time_settings(scene.analysis), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
@@ -336,7 +338,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
       preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
       const double load_factor = multiplied[k] ? factors.load : 1.0;
-      blocks.emplace_back(define_block(loaded, k, load_factor, *water, boundaries), parts);
+      blocks.emplace_back(define_block(loaded, k, load_factor, *water, *boundaries), parts);
     } catch (const OrderTooHigh& error) {
       diagnostics.error(
           scene.places.value(fmt::format("block.{}.order", k)),
@@ -364,11 +366,19 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                       "blocks of the incremental formulation cannot be tied");
     return std::nullopt;
   }
-  BuiltSimulation built{Simulation(std::move(blocks), motions, std::move(laws), settings, ties, scene.absent),
-                        std::move(choices),
-                        parts.size(),
-                        {},
-                        loaded.overlaps};
+  const BlockLoader again = [&loaded, water, boundaries,
+                             library = std::make_shared<BlockPartsLibrary>()](int block) {
+    return BlockModel(define_block(loaded, static_cast<std::size_t>(block), 1.0, *water, *boundaries),
+                      *library);
+  };
+  BuiltSimulation built{
+      simulation_of(ranks,
+                    {std::move(blocks), std::move(motions), std::move(laws), settings, ties, scene.absent},
+                    again),
+      std::move(choices),
+      parts.size(),
+      {},
+      loaded.overlaps};
   built.simulation.start_overlapping(depths_without_force(loaded));
   if (!scene.water.empty())
     built.simulation.set_joint_pressure([water](int a, int b, const Vector3& place) {

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/scene/build/run_ranks.hpp"
 #include "apps/scene/build/scene_loading.hpp"
 #include "solver/run/simulation.hpp"
 
@@ -35,10 +36,13 @@ struct TrialFactors {
 };
 
 /// @param threads >= 1
+/// @param ranks that share the simulation, with the same scene; null: it is this one's alone. The scene must then outlive
+/// the simulation. Collective if there are no errors, which are those of all ranks
 /// @return empty if a block cannot be built (reported at its key)
 [[nodiscard]] std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
                                                               Diagnostics& diagnostics,
                                                               Preparation* preparation = nullptr,
-                                                              const TrialFactors& factors = {});
+                                                              const TrialFactors& factors = {},
+                                                              const RunRanks* ranks = nullptr);
 
 }  // namespace ashlar

@@ -22,8 +22,8 @@ std::vector<bool> is_before(const std::vector<Vector3>& corners, const Vector3& 
   for (auto corner = corners.rbegin(); corner != corners.rend(); ++corner)
     reversed.push_back(cube_at(*corner));
   const int last = static_cast<int>(corners.size()) - 1;
-  return {ReferenceOrder(blocks, gravity).is_before(a, b),
-          ReferenceOrder(reversed, gravity).is_before(last - a, last - b)};
+  return {ReferenceOrder(places_of(blocks), gravity).is_before(a, b),
+          ReferenceOrder(places_of(reversed), gravity).is_before(last - a, last - b)};
 }
 
 const std::vector<bool> both = {true, true};

@@ -1,4 +1,4 @@
-#include "solver/run/struct_members.hpp"
+#include "solver/struct_members.hpp"
 
 #include <gtest/gtest.h>
 

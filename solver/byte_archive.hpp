@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/run/struct_members.hpp"
+#include "solver/struct_members.hpp"
 
 namespace ashlar {
 
@@ -152,10 +153,14 @@ class ByteReader {
   }
   template <class T, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
   void read(Eigen::Matrix<T, Rows, Columns, Options, MaxRows, MaxColumns>& matrix) {
-    const std::size_t rows = read_size(sizeof(T));
-    const std::size_t columns = read_size(sizeof(T));
+    // A matrix without elements may have any number of rows, or of columns.
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+    std::uint64_t rows = 0, columns = 0;
+    read(rows);
+    read(columns);
     const bool fits = (Rows == Eigen::Dynamic || rows == static_cast<std::size_t>(Rows)) &&
-                      (Columns == Eigen::Dynamic || columns == static_cast<std::size_t>(Columns));
+                      (Columns == Eigen::Dynamic || columns == static_cast<std::size_t>(Columns)) &&
+                      rows <= most && columns <= most;
     if (!fits || rows * columns > left_.size() / sizeof(T)) fail();
     matrix.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
     take(matrix.data(), rows * columns * sizeof(T));

@@ -1,0 +1,38 @@
+#include "apps/scene/check/rank_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace ashlar {
+
+void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
+  const auto refuse = [&](bool given, const std::string& key, const char* what) {
+    if (given)
+      diagnostics.error(
+          scene.places.key(key),
+          fmt::format("{} on several ranks, only one is allowed so far: run it without mpiexec", what));
+  };
+  const SceneAnalysis& analysis = scene.analysis;
+  refuse(analysis.type != SceneAnalysis::Type::dynamic, "analysis.type", "an analysis that is not dynamic");
+  refuse(analysis.initial_state == SceneAnalysis::InitialState::statics, "analysis.initial_state",
+         "a start from statics");
+  refuse(analysis.formulation == SceneAnalysis::Formulation::incremental, "analysis.formulation",
+         "the incremental formulation");
+  refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
+  refuse(has_multipliers(scene), "contact.augmented", "contact by multipliers");
+  refuse(scene.contact.allowed_overlap > 0.0, "contact.allowed_overlap", "an initial overlap");
+  refuse(!scene.stage.empty(), "stage.0", "a staged analysis");
+  refuse(!scene.bolt.empty(), "bolt.0", "bolts");
+  refuse(!scene.prop.empty(), "prop.0", "props");
+  refuse(!scene.boundary.empty(), "boundary.0", "boundaries");
+  refuse(scene.initial_stress.given(), "initial_stress", "initial stress");
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    const std::string joint = fmt::format("joint.{}", k);
+    refuse(scene.joint[k].tied.value_or(false), joint + ".tied", "blocks tied to each other");
+    refuse(scene.joint[k].restitution.has_value(), joint + ".restitution", "a coefficient of restitution");
+  }
+  refuse(scene.contact.law.restitution.has_value(), "contact.restitution", "a coefficient of restitution");
+}
+
+}  // namespace ashlar

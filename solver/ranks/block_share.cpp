@@ -1,0 +1,95 @@
+#include "solver/ranks/block_share.hpp"
+
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+Bytes as_message(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string_view text_of(const Bytes& message) {
+  return {reinterpret_cast<const char*>(message.data()), message.size()};
+}
+
+}  // namespace
+
+BlockShare::BlockShare(Ranks& ranks, std::vector<int> owners, std::unique_ptr<RankSolver> solver)
+    : ranks_(ranks),
+      solver_(solver ? std::move(solver) : make_gathered_solver(ranks)),
+      owners_(std::move(owners)),
+      is_ghost_(owners_.size(), false),
+      lent_(at(ranks.count())) {
+  for (int block = 0; block < count(); ++block) {
+    if (owner(block) < 0 || owner(block) >= ranks.count())
+      throw std::invalid_argument("block " + std::to_string(block) + " belongs to no rank");
+    if (owns(block)) own_.push_back(block);
+  }
+}
+
+void BlockShare::set_ghosts(std::vector<int> ghosts) {
+  ghosts_ = std::move(ghosts);
+  is_ghost_.assign(owners_.size(), false);
+  std::vector<std::vector<int>> asked(lent_.size());
+  for (const int block : ghosts_) {
+    is_ghost_[at(block)] = true;
+    asked[at(owner(block))].push_back(block);
+  }
+  std::vector<Bytes> messages;
+  for (const std::vector<int>& blocks : asked) {
+    ByteWriter writer;
+    if (!blocks.empty()) writer(blocks);
+    messages.push_back(as_message(writer.take()));
+  }
+  const std::vector<Bytes> received = ranks_.exchange(std::move(messages));
+  for (std::size_t rank = 0; rank < lent_.size(); ++rank) {
+    lent_[rank].clear();
+    if (received[rank].empty()) continue;
+    ByteReader reader(text_of(received[rank]));
+    reader(lent_[rank]);
+  }
+}
+
+void BlockShare::exchange(const std::function<void(ByteWriter&, int)>& write,
+                          const std::function<void(ByteReader&, int)>& read) const {
+  std::vector<Bytes> messages;
+  for (int rank = 0; rank < ranks_.count(); ++rank) {
+    ByteWriter writer;
+    if (rank != ranks_.own()) write(writer, rank);
+    messages.push_back(as_message(writer.take()));
+  }
+  const std::vector<Bytes> received = ranks_.exchange(std::move(messages));
+  for (int rank = 0; rank < ranks_.count(); ++rank) {
+    if (received[at(rank)].empty()) continue;
+    ByteReader reader(text_of(received[at(rank)]));
+    read(reader, rank);
+  }
+}
+
+void BlockShare::to_ghosts(const std::function<const Eigen::VectorXd*(int)>& of,
+                           const std::function<void(int, Eigen::VectorXd)>& take) const {
+  exchange(
+      [&](ByteWriter& writer, int rank) {
+        for (const int block : lent_[at(rank)])
+          if (const Eigen::VectorXd* value = of(block)) writer(block, *value);
+      },
+      [&](ByteReader& reader, int) {
+        while (!reader.at_end()) {
+          int block = -1;
+          Eigen::VectorXd value;
+          reader(block, value);
+          take(block, std::move(value));
+        }
+      });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,93 @@
+// Blocks shared out among ranks, seen from one of them.
+//
+// Each block belongs to one rank, its owner, which computes its motion. A rank also has the blocks of others that are so
+// near its own that they may touch in a step: its ghosts, whose state it gets from their owners. All other blocks are
+// absent there. All ranks number blocks as the scene does.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/byte_archive.hpp"
+#include "solver/ranks/placed_volume.hpp"
+#include "solver/ranks/rank_solver.hpp"
+#include "solver/ranks/ranks.hpp"
+
+namespace ashlar {
+
+class BlockShare {
+ public:
+  /// @param owners rank of each block, the same on all ranks
+  /// @param solver of systems that ranks share; null: make_gathered_solver()
+  /// @throws std::invalid_argument if there is no such rank
+  BlockShare(Ranks& ranks, std::vector<int> owners, std::unique_ptr<RankSolver> solver = nullptr);
+
+  [[nodiscard]] Ranks& ranks() const { return ranks_; }
+  [[nodiscard]] RankSolver& solver() const { return *solver_; }
+  [[nodiscard]] int count() const { return static_cast<int>(owners_.size()); }
+  [[nodiscard]] int owner(int block) const { return owners_[static_cast<std::size_t>(block)]; }
+  [[nodiscard]] bool owns(int block) const { return owner(block) == ranks_.own(); }
+  [[nodiscard]] bool is_ghost(int block) const { return is_ghost_[static_cast<std::size_t>(block)]; }
+  /// Increasing.
+  [[nodiscard]] const std::vector<int>& own() const { return own_; }
+  [[nodiscard]] const std::vector<int>& ghosts() const { return ghosts_; }
+  /// Own blocks that are ghosts of a rank, increasing.
+  [[nodiscard]] const std::vector<int>& lent_to(int rank) const {
+    return lent_[static_cast<std::size_t>(rank)];
+  }
+  /// Replaces the ghosts of this rank. Collective. @param ghosts blocks of other ranks, increasing
+  void set_ghosts(std::vector<int> ghosts);
+
+  /// Hands vectors of own blocks to the ranks whose ghosts they are. Collective.
+  /// @param of vector of a lent block; null: none is sent. @param take a ghost and its vector
+  void to_ghosts(const std::function<const Eigen::VectorXd*(int block)>& of,
+                 const std::function<void(int block, Eigen::VectorXd value)>& take) const;
+  /// Exchanges messages with the ranks that have ghosts of this one or own ghosts of it. Collective.
+  /// @param write (archive, receiver). @param read (archive, sender), of messages that are not empty
+  void exchange(const std::function<void(ByteWriter& writer, int rank)>& write,
+                const std::function<void(ByteReader& reader, int rank)>& read) const;
+
+  /// @name What all ranks know of the undeformed blocks (share_blocks in step/ghosts.hpp)
+  /// @{
+  void set_places(std::vector<PlacedVolume> places, const Eigen::Matrix3d& axes) {
+    places_ = std::move(places);
+    axes_ = axes;
+  }
+  [[nodiscard]] const std::vector<PlacedVolume>& places() const { return places_; }  ///< by block
+  /// Along the largest face of all blocks.
+  [[nodiscard]] const Eigen::Matrix3d& axes() const { return axes_; }
+  /// @}
+
+ private:
+  Ranks& ranks_;
+  std::unique_ptr<RankSolver> solver_;
+  std::vector<int> owners_;
+  std::vector<int> own_;
+  std::vector<int> ghosts_;
+  std::vector<bool> is_ghost_;          ///< by block
+  std::vector<std::vector<int>> lent_;  ///< by rank
+  std::vector<PlacedVolume> places_;
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();
+};
+
+/// A value of each rank, by rank. Collective.
+template <class Value>
+[[nodiscard]] std::vector<Value> values_of_ranks(Ranks& ranks, const Value& value) {
+  ByteWriter writer;
+  writer(value);
+  const std::string text = writer.take();
+  const auto bytes = std::as_bytes(std::span(text));
+  std::vector<Value> values;
+  for (const Bytes& given : ranks.gather(Bytes(bytes.begin(), bytes.end()))) {
+    ByteReader reader({reinterpret_cast<const char*>(given.data()), given.size()});
+    reader(values.emplace_back());
+  }
+  return values;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,32 @@
+// Results of a run that several ranks share, put together. All functions are collective; with one rank they are those
+// of the simulation.
+#pragma once
+
+#include <vector>
+
+#include "solver/run/run_totals.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+/// Sums and extremes over all ranks, the same on each.
+[[nodiscard]] RunTotals totals_of_run(const Simulation& simulation);
+
+/// State of each block of the run, by block, on rank 0; on other ranks none.
+[[nodiscard]] std::vector<BlockState> states_of_run(const Simulation& simulation);
+
+/// Records of all pairs in contact, by blocks, on rank 0; on other ranks none.
+[[nodiscard]] std::vector<PairRecord> contacts_of_run(const Simulation& simulation);
+
+/// Work and memory of one rank.
+struct RankWork {
+  int own = 0;     ///< blocks
+  int ghosts = 0;  ///< blocks
+  int pairs = 0;   ///< in contact, of own blocks
+  PhaseSeconds seconds;
+  RankTraffic traffic;
+};
+/// By rank; the same on each.
+[[nodiscard]] std::vector<RankWork> work_of_ranks(const Simulation& simulation);
+
+}  // namespace ashlar

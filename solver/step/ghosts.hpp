@@ -1,0 +1,66 @@
+// Ghosts of a run that ranks share: which blocks of others are near, their models and their state.
+//
+// Two blocks may touch in a step only if their boxes come within contact reach. Ghosts are the blocks of others that do
+// so if all blocks move by a margin. They are found again when some block may leave its margin in the coming step. Boxes
+// are then exchanged among all ranks, models are made from the scene, which each rank can read, and states are sent.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "mechanics/block/block_model.hpp"
+#include "solver/ranks/block_share.hpp"
+#include "solver/state/block_system.hpp"
+#include "solver/state/run_state.hpp"
+#include "solver/step/step_caches.hpp"
+
+namespace ashlar {
+
+/// Makes the model of any block as the run starts.
+using BlockLoader = std::function<BlockModel(int block)>;
+
+/// Blocks of a run that ranks share, beyond their models. Constant but for the margin.
+struct SharedBlocks {
+  std::unique_ptr<BlockShare> share;
+  BlockLoader load;
+  std::vector<bool> absent;        ///< by block: on all ranks
+  double margin = 0.0;             ///< m, by which each block may move before ghosts are found again
+  bool keeps_models = false;       ///< this rank keeps the models of all blocks, for results
+  std::vector<double> paths = {};  ///< by block, m: ContactFinder::path() when ghosts were found
+};
+
+/// The blocks of one rank at the start of a run.
+struct BlocksOfRank {
+  std::vector<BlockModel> blocks;  ///< own blocks and ghosts; all others are the same small fixed block
+  std::unique_ptr<SharedBlocks> shared;
+};
+
+/// Loads own blocks and ghosts. Collective; errors of the loader are thrown on all ranks.
+/// @param owners rank of each block, the same on all ranks
+/// @param absent by block, or empty: blocks that are absent from the run
+/// @param solver see BlockShare. @param keeps_models true: this rank has the models of all blocks
+[[nodiscard]] BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader load,
+                                        const SimulationSettings& settings, std::vector<bool> absent = {},
+                                        std::unique_ptr<RankSolver> solver = nullptr,
+                                        bool keeps_models = false);
+
+/// Finds ghosts again if a block may leave its margin in the coming step. Collective.
+/// @param step s
+void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                     double step);
+
+/// True if a block of any rank has left its margin in a solved step: then ghosts have been found again, with a margin
+/// for this motion, and contacts have to be detected again. Collective.
+/// @param motions path bound of each own block in the step, m
+[[nodiscard]] bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state,
+                                StepCaches& caches, double farthest);
+
+/// Gives ghosts the state of their owners. Collective.
+void update_ghosts(const BlockSystem& system, RunState& state);
+
+/// Gives ranks the memory of contacts of their ghosts with other blocks that are not their own: retractions from them
+/// decide which contacts are at internal edges. Normals of closed points and depths suffice. Collective.
+void update_ghost_contacts(const BlockSystem& system, RunState& state);
+
+}  // namespace ashlar

@@ -1,0 +1,204 @@
+#include "solver/step/shared_island.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
+#include "mechanics/block/rigid_body.hpp"
+#include "solver/step/open_close.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Rigid motions of a body in its equations, (freedom, 6).
+Eigen::MatrixXd rigid_motions(const BodyStep& body) {
+  if (body.model->rigid()) return Eigen::MatrixXd::Identity(rigid_freedom, rigid_freedom);
+  const Eigen::MatrixXd fields = rigid_fields(body.state->position);
+  Eigen::MatrixXd motions(body.model->unknowns(), fields.cols());
+  for (Eigen::Index k = 0; k < fields.cols(); ++k)
+    motions.col(k) =
+        body.model->space().restrict(Eigen::MatrixX3d(fields.col(k).reshaped(fields.rows() / 3, 3)));
+  return motions;
+}
+
+/// Solves the rows of own bodies with those of the other ranks, and gets the solution of ghosts.
+class SharedIslandSolver final : public LinearSolver {
+ public:
+  SharedIslandSolver(const BlockShare& share, const Island& island, const std::vector<BodyStep>& bodies,
+                     std::vector<int> starts, const IslandRanks& ranks)
+      : share_(share), island_(island), bodies_(bodies), starts_(std::move(starts)), ranks_(ranks) {}
+
+  [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix) override {
+    return share_.solver().factorize(rows_of(matrix));
+  }
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool) override {
+    Eigen::VectorXd own(own_size());
+    Eigen::Index next = 0;
+    const auto each_own = [&](const auto& visit) {
+      next = 0;
+      for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+        if (!ranks_.owns_body(k)) continue;
+        const int size = starts_[k + 1] - starts_[k];
+        visit(starts_[k], next, size);
+        next += size;
+      }
+    };
+    each_own([&](Eigen::Index start, Eigen::Index place, Eigen::Index size) {
+      own.segment(place, size) = right_side.segment(start, size);
+    });
+    own = share_.solver().solve(own);
+    Eigen::VectorXd found = Eigen::VectorXd::Zero(right_side.size());
+    each_own([&](Eigen::Index start, Eigen::Index place, Eigen::Index size) {
+      found.segment(start, size) = own.segment(place, size);
+    });
+    ranks_.update_ghosts(found);
+    return found;
+  }
+  [[nodiscard]] const FactorCounts& counts() const override { return share_.solver().counts(); }
+  void drop_counts() override {}
+  /// No factor is kept for later steps.
+  [[nodiscard]] double cost_in_solves() const override { return 0.0; }
+  [[nodiscard]] const SymmetricMatrix& matrix() const override { return none_; }
+
+ private:
+  [[nodiscard]] Eigen::Index own_size() const {
+    Eigen::Index size = 0;
+    for (std::size_t k = 0; k < island_.bodies.size(); ++k)
+      if (ranks_.owns_body(k)) size += starts_[k + 1] - starts_[k];
+    return size;
+  }
+
+  [[nodiscard]] std::vector<BodyRows> rows_of(const SymmetricMatrix& matrix) const {
+    std::vector<std::map<int, Eigen::MatrixXd>> blocks(island_.bodies.size());  // by column
+    const auto block = [&](int row, int column) -> Eigen::MatrixXd& {
+      const auto [place, is_new] = blocks[at(row)].try_emplace(column);
+      if (is_new)
+        place->second.setZero(starts_[at(row) + 1] - starts_[at(row)],
+                              starts_[at(column) + 1] - starts_[at(column)]);
+      return place->second;
+    };
+    const auto body_of = [&](int equation) {
+      return static_cast<int>(std::upper_bound(starts_.begin(), starts_.end(), equation) - starts_.begin()) -
+             1;
+    };
+    for (int column = 0; column < matrix.size; ++column) {
+      const int j = body_of(column);
+      for (int k = matrix.column_start[at(column)]; k < matrix.column_start[at(column) + 1]; ++k) {
+        const int row = matrix.rows[at(k)];
+        const int i = body_of(row);
+        const double value = matrix.values[at(k)];
+        if (ranks_.owns_body(at(i))) block(i, j)(row - starts_[at(i)], column - starts_[at(j)]) = value;
+        if (ranks_.owns_body(at(j))) block(j, i)(column - starts_[at(j)], row - starts_[at(i)]) = value;
+      }
+    }
+    std::vector<BodyRows> rows;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      if (!ranks_.owns_body(k)) continue;
+      BodyRows& of_body = rows.emplace_back();
+      of_body.body = island_.bodies[k];
+      for (auto& [column, values] : blocks[k]) {
+        of_body.columns.push_back(island_.bodies[at(column)]);
+        of_body.blocks.push_back(std::move(values));
+      }
+      of_body.rigid = rigid_motions(bodies_[at(of_body.body)]);
+    }
+    return rows;
+  }
+
+  const BlockShare& share_;
+  const Island& island_;
+  const std::vector<BodyStep>& bodies_;
+  std::vector<int> starts_;
+  const IslandRanks& ranks_;
+  SymmetricMatrix none_;
+};
+
+}  // namespace
+
+int join_shared_islands(const BlockSystem& system, std::vector<Island>& islands) {
+  const BlockShare& share = *system.share();
+  Island joined;
+  std::vector<Island> others;
+  for (Island& island : islands) {
+    const auto ghosts = std::count_if(island.bodies.begin(), island.bodies.end(),
+                                      [&](int block) { return !share.owns(block); });
+    if (ghosts == 0) {
+      others.push_back(std::move(island));
+    } else if (ghosts < static_cast<std::ptrdiff_t>(island.bodies.size())) {
+      joined.bodies.insert(joined.bodies.end(), island.bodies.begin(), island.bodies.end());
+      joined.pairs.insert(joined.pairs.end(), island.pairs.begin(), island.pairs.end());
+    }
+  }
+  islands = std::move(others);
+  if (!any_rank(share.ranks(), !joined.bodies.empty())) return -1;
+  std::sort(joined.bodies.begin(), joined.bodies.end());
+  std::sort(joined.pairs.begin(), joined.pairs.end());
+  islands.push_back(std::move(joined));
+  return static_cast<int>(islands.size()) - 1;
+}
+
+std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
+                                const std::vector<ContactPair>& pairs) {
+  const BlockShare& share = *system.share();
+  UnionFind touching(at(system.count()));
+  for (const int index : island.pairs) {
+    const ContactPair& pair = pairs[at(index)];
+    if (system.moving()[at(pair.a())] && system.moving()[at(pair.b())]) touching.unite(pair.a(), pair.b());
+  }
+  std::map<int, Eigen::VectorXd> lowest;  // by root
+  for (const int block : island.bodies)
+    lowest.try_emplace(touching.find(block), Eigen::VectorXd::Constant(1, block));
+  for (bool changed = true; changed;) {
+    changed = false;
+    share.to_ghosts(
+        [&](int block) -> const Eigen::VectorXd* {
+          const auto found = lowest.find(touching.find(block));
+          return found == lowest.end() ? nullptr : &found->second;
+        },
+        [&](int block, const Eigen::VectorXd& of_owner) {
+          const auto found = lowest.find(touching.find(block));
+          if (found == lowest.end() || !(of_owner[0] < found->second[0])) return;
+          found->second = of_owner;
+          changed = true;
+        });
+    changed = any_rank(share.ranks(), changed);
+  }
+  std::map<int, int> first;
+  for (const int block : island.bodies)
+    first.emplace(block, static_cast<int>(lowest.at(touching.find(block))[0]));
+  return first;
+}
+
+IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
+                                 std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
+                                 const TimeScheme& scheme) {
+  const BlockShare& share = *system.share();
+  std::map<int, int> place;
+  std::vector<int> sizes, starts = {0};
+  for (const int body : island.bodies) {
+    place.emplace(body, static_cast<int>(place.size()));
+    sizes.push_back(bodies[at(body)].model->freedom());
+    starts.push_back(starts.back() + sizes.back());
+  }
+  std::vector<std::array<int, 2>> links;
+  std::vector<bool> owns_pair;
+  for (const int index : island.pairs) {
+    const ContactPair& pair = pairs[at(index)];
+    owns_pair.push_back(system.owns_pair(pair.a(), pair.b()));
+    const auto a = place.find(pair.a());
+    const auto b = place.find(pair.b());
+    if (a != place.end() && b != place.end()) links.push_back({a->second, b->second});
+  }
+  const IslandRanks ranks(share, island.bodies, starts, std::move(owns_pair));
+  IslandSolvers::Entry solver{sizes, links, BlockMatrix(sizes, links),
+                              std::make_unique<SharedIslandSolver>(share, island, bodies, starts, ranks)};
+  IslandResult result;
+  IslandProblem problem(island, bodies, pairs, scheme, system.settings(), solver, ranks);
+  iterate_open_close(problem, result);
+  return result;
+}
+
+}  // namespace ashlar

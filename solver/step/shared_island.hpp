@@ -1,0 +1,31 @@
+// The island of all bodies that touch bodies of other ranks: one system, whose rows the ranks share out.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "solver/linear/linear_solver.hpp"
+#include "solver/state/block_system.hpp"
+#include "solver/step/island.hpp"
+#include "solver/step/island_ranks.hpp"
+
+namespace ashlar {
+
+/// Joins the islands that contain ghosts to one, the last, and removes those of ghosts alone.
+/// @param islands find_islands() of own blocks and ghosts
+/// @return index of the joined island, which has no bodies on ranks without any; -1: no rank has such islands.
+/// Collective
+[[nodiscard]] int join_shared_islands(const BlockSystem& system, std::vector<Island>& islands);
+
+/// Lowest block of the set of touching bodies that each body of the joined island belongs to, by body. Collective.
+[[nodiscard]] std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
+                                              const std::vector<ContactPair>& pairs);
+
+/// Solves the joined island. Collective; the status is the same on all ranks.
+[[nodiscard]] IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
+                                               std::vector<BodyStep>& bodies,
+                                               const std::vector<ContactPair>& pairs,
+                                               const TimeScheme& scheme);
+
+}  // namespace ashlar
