@@ -22,14 +22,19 @@ std::size_t contact_points(const std::vector<PairRecord>& records) {
 }  // namespace
 
 CheckpointSaver::CheckpointSaver(std::shared_ptr<FolderRecorder> recorder, std::optional<double> interval,
-                                 bool saved)
+                                 bool saved, Ranks* ranks)
     : recorder_(std::move(recorder)),
       interval_(interval),
+      ranks_(ranks),
       saved_(saved),
       schedule_(interval, RunClock::now()) {}
 
+bool CheckpointSaver::agreed(bool first) const {
+  return ranks_ == nullptr ? first : any_rank(*ranks_, first && ranks_->own() == 0);
+}
+
 void CheckpointSaver::run_begins(const Run& run) {
-  scene_bytes_ = json_text(to_json(run.whole()), 2).size();
+  if (recorder_) scene_bytes_ = json_text(to_json(run.whole()), 2).size();
 }
 
 void CheckpointSaver::stage_begins(const Run& run) {
@@ -38,10 +43,10 @@ void CheckpointSaver::stage_begins(const Run& run) {
 }
 
 void CheckpointSaver::step_taken(const Run& run) {
-  if (schedule_.due(RunClock::now())) {
+  if (agreed(schedule_.due(RunClock::now()))) {
     save(run);
     schedule_.saved(RunClock::now());
-  } else if (contact_points(run.simulation().contacts()) > 2 * contact_points_) {
+  } else if (agreed(contact_points(run.simulation().contacts()) > 2 * contact_points_)) {
     // The reserved space may be too small for this state.
     try {
       save(run);
@@ -56,12 +61,15 @@ void CheckpointSaver::stage_stops(const Run& run) {
 }
 
 void CheckpointSaver::save_after_failure(const Run& run) {
+  // The other ranks have no failure: the state saved last stays.
+  if (ranks_ != nullptr) return;
   recorder_->reserve().release();
   write(run);
 }
 
 void CheckpointSaver::save(const Run& run) {
   write(run);
+  if (!recorder_) return;
   contact_points_ = contact_points(run.simulation().contacts());
   // A state with twice the contact points, which requires another checkpoint, and the summary fit in beside the
   // present state.
@@ -70,8 +78,9 @@ void CheckpointSaver::save(const Run& run) {
 }
 
 void CheckpointSaver::write(const Run& run) {
-  recorder_->claim().check();
   RunCheckpoint checkpoint = run.checkpoint();
+  if (!recorder_) return;
+  recorder_->claim().check();
   checkpoint.folder = recorder_->synced_state();
   state_bytes_ =
       write_checkpoint(recorder_->claim().folder() / checkpoint_name, run.identity().scene, checkpoint);

@@ -10,6 +10,7 @@
 #include "apps/run/checkpoint_schedule.hpp"
 #include "apps/run/folder_recorder.hpp"
 #include "apps/run/run_observer.hpp"
+#include "solver/ranks/ranks.hpp"
 
 namespace ashlar {
 
@@ -18,7 +19,10 @@ class CheckpointSaver : public RunObserver {
  public:
   /// @param recorder not null, attached before this. @param interval s between checkpoints, >= 0; empty: growing, see
   /// CheckpointSchedule. @param saved the folder has a checkpoint of the run
-  CheckpointSaver(std::shared_ptr<FolderRecorder> recorder, std::optional<double> interval, bool saved);
+  /// @param ranks that share the run, each with a saver whose members are collective; null: one. The recorder of those
+  /// that do not write is null
+  CheckpointSaver(std::shared_ptr<FolderRecorder> recorder, std::optional<double> interval, bool saved,
+                  Ranks* ranks = nullptr);
 
   void run_begins(const Run& run) override;
   void stage_begins(const Run& run) override;
@@ -30,11 +34,14 @@ class CheckpointSaver : public RunObserver {
   [[nodiscard]] bool saved() const { return saved_; }
 
  private:
+  /// The first rank's answer on all ranks.
+  [[nodiscard]] bool agreed(bool first) const;
   void save(const Run& run);
   void write(const Run& run);
 
   std::shared_ptr<FolderRecorder> recorder_;
   std::optional<double> interval_;
+  Ranks* ranks_;
   bool saved_;
   CheckpointSchedule schedule_;
   std::uintmax_t scene_bytes_ = 0;  ///< in the summary

@@ -98,7 +98,10 @@ void Run::prepare_piece() {
   if (stage() == 1 && !earlier_ && manner_.keeps_history && whole().stage.front().reset_displacement)
     reset_displacement();
   built_.simulation.gather_results();
-  const auto tell_beginning = [this] { observers_.tell(&RunObserver::run_begins, *this); };
+  const auto tell_beginning = [this] {
+    observers_.tell(&RunObserver::run_begins, *this);
+    if (shared() && saver_) saver_->run_begins(*this);
+  };
   shared() ? do_on_all(manner_.ranks->ranks, tell_beginning) : tell_beginning();
   phase_ = Phase::stage_start;
   earlier_.reset();
@@ -304,6 +307,7 @@ bool Run::accept_step() {
 void Run::end_stage(RunStatus status, std::string message) {
   stage_status_ = status;
   message_ = std::move(message);
+  built_.simulation.gather_results();
   if (!tell(&RunObserver::stage_stops)) return;
   if (status == RunStatus::completed && !answer_.drawn_only()) {
     if (const auto deep = built_.simulation.audit()) {
@@ -375,15 +379,19 @@ void Run::interrupt() {
 
 /// @return false if an observer could not write: the run has failed
 bool Run::tell(void (RunObserver::*event)(const Run&)) {
-  try {
-    observers_.tell(event, *this);
-    return told_on_all(true);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    fail_to_write(error);
-    return told_on_all(false);
-  }
+  const auto all_told = [this](const auto& telling) {
+    try {
+      telling();
+      return told_on_all(true);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      fail_to_write(error);
+      return told_on_all(false);
+    }
+  };
+  if (!all_told([&] { observers_.tell(event, *this); })) return false;
+  return !shared() || !saver_ || all_told([&] { ((*saver_).*event)(*this); });
 }
 
 void Run::add_row() {

@@ -133,7 +133,8 @@ class Run {
   /// checkpoints, and the summary at the end. @throws ClaimRefused, std::runtime_error; std::logic_error if the run is
   /// recorded already, or has ended
   void record(const std::filesystem::path& folder, ClaimPurpose purpose = ClaimPurpose::new_run);
-  /// @param claim not null. @param interval s between checkpoints; empty: growing, see CheckpointSchedule
+  /// @param claim not null but on ranks other than the first, which take part in checkpoints
+  /// @param interval s between checkpoints; empty: growing, see CheckpointSchedule
   /// @param kept true: a search for a factor continues with the trials in the folder
   void record(std::shared_ptr<const FolderClaim> claim, std::optional<double> interval, bool kept);
   /// Continues the recorded run of a result folder from its checkpoint, and its record. rows() start there.

@@ -98,11 +98,16 @@ void Run::record(const std::filesystem::path& folder, ClaimPurpose purpose) {
 }
 
 void Run::record(std::shared_ptr<const FolderClaim> claim, std::optional<double> interval, bool kept) {
+  if (!claim) {
+    saver_ = std::make_shared<CheckpointSaver>(nullptr, interval, earlier_ != nullptr, &manner_.ranks->ranks);
+    return;
+  }
   auto recorder = std::make_shared<FolderRecorder>(
       claim, earlier_ ? std::optional(earlier_->folder) : std::optional<ResultFolderState>());
-  auto saver = std::make_shared<CheckpointSaver>(recorder, interval, earlier_ != nullptr);
+  auto saver = std::make_shared<CheckpointSaver>(recorder, interval, earlier_ != nullptr,
+                                                 shared() ? &manner_.ranks->ranks : nullptr);
   observe(recorder);
-  // The state of one rank is not that of the run.
+  // On several ranks it is called once all have their results (Run::tell).
   if (!shared()) observe(saver);
   recorder_ = std::move(recorder);
   saver_ = std::move(saver);
@@ -165,7 +170,8 @@ std::vector<OrderError> Run::order_errors() const {
   const SceneAnalysis& analysis = scene().analysis;
   const bool known = analysis.type == SceneAnalysis::Type::dynamic ||
                      (analysis.type == SceneAnalysis::Type::statics && status_ == RunStatus::equilibrium);
-  return known ? ashlar::order_errors(simulation()) : std::vector<OrderError>{};
+  // A rank knows the contacts of its own blocks only.
+  return known && !shared() ? ashlar::order_errors(simulation()) : std::vector<OrderError>{};
 }
 
 std::string Run::summary() const {

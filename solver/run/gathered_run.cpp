@@ -183,6 +183,12 @@ std::vector<RankWork> work_of_ranks(const Simulation& simulation) {
   work.seconds = simulation.seconds();
   for (const PairRecord& record : simulation.contacts())
     work.pairs += system.owns_pair(record.a, record.b) ? 1 : 0;
+  for (const auto& [blocks, pair] : simulation.histories()) {
+    if (!system.owns_pair(blocks[0], blocks[1])) continue;
+    work.broken_pairs += pair.broken > 0.0 ? 1 : 0;
+    work.broken_area += pair.broken;
+    work.bonded_area += pair.bonded;
+  }
   const BlockShare* share = system.share();
   if (share == nullptr) {
     work.own = system.count();

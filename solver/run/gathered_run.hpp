@@ -29,9 +29,12 @@ struct PairBonds {
 
 /// Work and memory of one rank.
 struct RankWork {
-  int own = 0;     ///< blocks
-  int ghosts = 0;  ///< blocks
-  int pairs = 0;   ///< in contact, of own blocks
+  int own = 0;               ///< blocks
+  int ghosts = 0;            ///< blocks
+  int pairs = 0;             ///< in contact, that this rank makes
+  int broken_pairs = 0;      ///< of all those that it has made: with failed area
+  double broken_area = 0.0;  ///< m^2
+  double bonded_area = 0.0;  ///< m^2, of all joints with strength
   PhaseSeconds seconds;
   RankTraffic traffic;
 };

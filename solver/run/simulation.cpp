@@ -20,6 +20,7 @@
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/agreement.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/shared_snapshot.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
 namespace ashlar {
@@ -267,11 +268,17 @@ ContactExplanation Simulation::explain_contacts(int a, int b) const {
 }
 
 SimulationSnapshot Simulation::snapshot() const {
-  return snapshot_of(system_, state_, caches_);
+  SimulationSnapshot part = snapshot_of(system_, state_, caches_);
+  if (shared_ == nullptr) return part;
+  return whole_snapshot(system_, std::move(part), told_ ? &told_->totals : nullptr);
 }
 
 void Simulation::restore(const SimulationSnapshot& snapshot) {
-  ashlar::restore(system_, state_, caches_, snapshot);
+  told_.reset();
+  if (shared_ == nullptr)
+    ashlar::restore(system_, state_, caches_, snapshot);
+  else
+    restore_part(*shared_, system_, state_, caches_, snapshot);
 }
 
 std::optional<StateFault> Simulation::audit() {

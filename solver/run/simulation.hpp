@@ -153,7 +153,8 @@ class Simulation {
   /// @param tolerance m. @throws std::invalid_argument unless it is > 0
   void set_chord_tolerance(double tolerance);
 
-  /// All data changed since construction (checkpoint.hpp); restore() sets them.
+  /// All data changed since construction (checkpoint.hpp); restore() sets them. On several ranks both are collective
+  /// (step/shared_snapshot.hpp): the first rank has the snapshot of the run after gather_results(), and all restore it.
   [[nodiscard]] SimulationSnapshot snapshot() const;
   /// @throws std::invalid_argument if the snapshot was taken of other blocks.
   void restore(const SimulationSnapshot& snapshot);

@@ -41,6 +41,12 @@ class LedgerKeeper {
 
   /// Measures all energies and makes the present balance the initial one.
   void start(const BlockSystem& system, const std::vector<BlockState>& states);
+  /// Replaces energies and the initial balance by those of a part of a run, or of the whole; largest values stay.
+  void set(const Ledger& ledger, double start_balance) {
+    ledger_ = ledger;
+    start_balance_ = start_balance;
+  }
+  [[nodiscard]] double start_balance() const { return start_balance_; }
   /// Clears all bookings and sets the spring energy. To be followed by start().
   void clear(double in_springs);
   /// Measures the energies at the end of a step whose work has been booked, and the error of the balance.

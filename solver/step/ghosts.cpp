@@ -162,6 +162,8 @@ void set_here(BlockSystem& system, RunState& state, StepCaches& caches, int bloc
   state.sleep.rests[at(block)] = {};
 }
 
+}  // namespace
+
 void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches) {
   BlockShare& share = *shared.share;
   const ContactFinder& finder = caches.contacts.finder();
@@ -196,8 +198,6 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
   update_ghost_contacts(system, state);
   for (int k = 0; k < system.count(); ++k) shared.paths[at(k)] = finder.path(k);
 }
-
-}  // namespace
 
 BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader load,
                           const SimulationSettings& settings, std::vector<bool> absent,

@@ -45,6 +45,9 @@ struct BlocksOfRank {
                                         std::unique_ptr<RankSolver> solver = nullptr,
                                         bool keeps_models = false);
 
+/// Finds ghosts again, by the present state. Collective.
+void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches);
+
 /// Finds ghosts again if a block may leave its margin in the coming step. Collective.
 /// @param step s
 void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,

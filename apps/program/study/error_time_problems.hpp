@@ -26,7 +26,7 @@ struct ErrorTimeSetting {
 [[nodiscard]] double plate_error(const ErrorTimeSetting& setting);
 /// Approach of Hertz's sphere (hertz_sphere.hpp), with the order of the outer blocks, one more near the contact and
 /// two more at it; with an accuracy all begin at 1.
-[[nodiscard]] double hertz_error(const ErrorTimeSetting& setting);
+[[nodiscard]] double sphere_error(const ErrorTimeSetting& setting);
 /// Time in which a rigid block that stands on its edge falls back on its base: a quarter of 1.0954 s.
 [[nodiscard]] double rocking_error(const ErrorTimeSetting& setting);
 /// Impulse of the impact of two equal bars of 1 m at 1 m/s, 80 N s; the step is over the duration 2 L / c of contact.

@@ -52,7 +52,7 @@ double plate_error(const ErrorTimeSetting& setting) {
                               -0.0015046 * material.density * earth_gravity * thickness / rigidity, setting);
 }
 
-double hertz_error(const ErrorTimeSetting& setting) {
+double sphere_error(const ErrorTimeSetting& setting) {
   HertzSphere sphere;
   const bool chosen = setting.accuracy > 0.0;
   sphere.far_order = chosen ? 1 : setting.order;

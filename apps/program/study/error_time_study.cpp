@@ -315,8 +315,8 @@ void add_further_problems(const ErrorTimeStudySize& size, ErrorTimeCurves& curve
   for (int order = 1; order <= std::min(8, 4 * size.steps); ++order) curves.add({order}, plate_error);
   curves.over_accuracies(5, {}, plate_error, 2);
   curves.start(6, "graded tied blocks");
-  for (int order = 1; order <= std::min(2, size.steps - 1); ++order) curves.add({order}, hertz_error);
-  if (size.steps > 2) curves.over_accuracies(6, {}, hertz_error, 1);
+  for (int order = 1; order <= std::min(2, size.steps - 1); ++order) curves.add({order}, sphere_error);
+  if (size.steps > 2) curves.over_accuracies(6, {}, sphere_error, 1);
   for (const Integrator integrator : {Integrator::dda, Integrator::generalized_alpha})
     curves.over_steps(7, {1, integrator, true}, 4e-3, rocking_error);
   for (const Integrator integrator : {Integrator::dda, Integrator::generalized_alpha})

@@ -4,6 +4,7 @@
 
 #include "apps/results/folder/identity_json.hpp"
 #include "apps/results/folder/program_version.hpp"
+#include "apps/results/folder/rank_summary.hpp"
 #include "apps/results/folder/support_summary.hpp"
 #include "apps/results/system/this_process.hpp"
 #include "apps/scene/check/base_motion.hpp"
@@ -178,6 +179,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
                              {"motion_check", phases.motion_check},
                              {"depth_audit", phases.depth_audit},
                              {"output", seconds.output}};
+  if (!ranks.empty()) add_ranks(summary, ranks);
   summary["peak_memory_bytes"] = peak_memory_bytes();
   summary["penetration_max"] = simulation.deepest().depth;
   summary["contact_depth_max"] = simulation.largest_penetration();
@@ -187,7 +189,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   summary["largest_displacement"] = json_of(largest.displacement, simulation);
   summary["largest_compression"] = json_of(largest.compression, simulation);
   summary["largest_tension"] = json_of(largest.tension, simulation);
-  const BrokenJoints broken = broken_joints(simulation);
+  const BrokenJoints broken = ranks.empty() ? broken_joints(simulation) : broken_joints(ranks);
   summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
   if (!simulation.bolts().empty()) summary["support"] = support_summary(simulation);
   if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)

@@ -1,0 +1,155 @@
+#include "solver/step/shared_snapshot.hpp"
+
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/index.hpp"
+#include "solver/archived_geometry.hpp"
+#include "solver/byte_archive.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Copies the value of a block if there is one.
+template <class Value>
+void take_value(int block, const std::vector<Value>& from, std::vector<Value>& to) {
+  if (at(block) >= from.size()) return;
+  if (to.size() < from.size()) to.resize(from.size());
+  to[at(block)] = from[at(block)];
+}
+
+void take_block(int block, const SimulationSnapshot& from, SimulationSnapshot& to) {
+  take_value(block, from.run.states, to.run.states);
+  take_value(block, from.run.accelerations, to.run.accelerations);
+  take_value(block, from.run.spin_debts, to.run.spin_debts);
+  take_value(block, from.run.sleep.rests, to.run.sleep.rests);
+  take_value(block, from.finder.tracks, to.finder.tracks);
+  take_value(block, from.finder.divisions, to.finder.divisions);
+}
+
+/// Removes pairs that other ranks tell.
+void keep_own_pairs(const BlockSystem& system, RunState& run) {
+  std::erase_if(run.pairs,
+                [&](const auto& entry) { return !system.owns_pair(entry.first[0], entry.first[1]); });
+  std::erase_if(run.records, [&](const PairRecord& record) { return !system.owns_pair(record.a, record.b); });
+}
+
+/// @return on the first rank the snapshots of the others, by rank; its own entry and those of other ranks are empty
+std::vector<Bytes> parts_on_first(Ranks& ranks, const SimulationSnapshot& part) {
+  std::vector<Bytes> messages(at(ranks.count()));
+  if (ranks.own() > 0) {
+    ByteWriter writer;
+    writer(part);
+    const std::string text = writer.take();
+    const auto bytes = std::as_bytes(std::span(text));
+    messages[0].assign(bytes.begin(), bytes.end());
+  }
+  return ranks.exchange(std::move(messages));
+}
+
+void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
+  for (int block = 0; block < share.count(); ++block)
+    if (share.owner(block) == rank) take_block(block, part, whole);
+  whole.run.pairs.merge(part.run.pairs);
+  whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
+}
+
+/// Tracks and divisions of the blocks that a rank has.
+FinderState finder_state_here(const BlockSystem& system, const ContactFinder& finder,
+                              const SimulationSnapshot& whole, bool first) {
+  FinderState here = finder.state();
+  for (int k = 0; k < system.count(); ++k) {
+    if (!system.here(k)) continue;
+    take_value(k, whole.finder.tracks, here.tracks);
+    take_value(k, whole.finder.divisions, here.divisions);
+  }
+  here.counts = first ? whole.finder.counts : FinderCounts{};
+  return here;
+}
+
+/// The part of a whole snapshot without pairs, for the blocks that are here.
+SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState& state,
+                                      const StepCaches& caches, const SimulationSnapshot& whole, bool first) {
+  const SimulationSnapshot present = snapshot_of(system, state, caches);
+  SimulationSnapshot part = whole;
+  for (int k = 0; k < system.count(); ++k)
+    if (!system.here(k)) take_block(k, present, part);
+  part.finder = finder_state_here(system, caches.contacts.finder(), whole, first);
+  part.factors.clear();
+  part.run.pairs.clear();
+  part.run.records.clear();
+  // Depths are measured anew.
+  part.run.depths = state.depths;
+  if (first) return part;
+  part.run.ledger.set({}, 0.0);
+  part.run.report = {};
+  part.run.report.step = whole.run.report.step;
+  part.run.extremes = {};
+  part.run.log.counts = {};
+  return part;
+}
+
+}  // namespace
+
+SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
+                                  const RunTotals* totals) {
+  const BlockShare& share = *system.share();
+  keep_own_pairs(system, part.run);
+  part.factors.clear();
+  const std::vector<double> balances = values_of_ranks(share.ranks(), part.run.ledger.start_balance());
+  const std::vector<Bytes> others = parts_on_first(share.ranks(), part);
+  if (share.ranks().own() > 0) return part;
+  if (totals == nullptr) throw std::logic_error("results are gathered before a snapshot of several ranks");
+  for (int rank = 1; rank < share.ranks().count(); ++rank) {
+    const Bytes& bytes = others[at(rank)];
+    ByteReader reader({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    SimulationSnapshot other;
+    reader(other);
+    merge_part(share, rank, std::move(other), part);
+  }
+  std::sort(part.run.records.begin(), part.run.records.end(), [](const PairRecord& x, const PairRecord& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  });
+  double balance = 0.0;
+  for (const double of_rank : balances) balance += of_rank;
+  part.run.ledger.set(totals->ledger, balance);
+  part.run.report = totals->report;
+  part.run.extremes = totals->extremes;
+  part.run.log.counts = totals->counts;
+  part.finder.counts = totals->counts.finder;
+  part.run.depths = {};
+  return part;
+}
+
+void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                  const SimulationSnapshot& whole) {
+  if (whole.run.states.size() != at(system.count()) || !whole.carried.empty() || !whole.reactions.empty() ||
+      !whole.load_factors.empty())
+    throw std::invalid_argument("the snapshot has other blocks");
+  const bool first = shared.share->ranks().own() == 0;
+  do_on_all(shared.share->ranks(),
+            [&] { restore(system, state, caches, part_without_pairs(system, state, caches, whole, first)); });
+  find_ghosts(shared, system, state, caches);
+  ContactFinder& finder = caches.contacts.finder();
+  finder.restore(finder_state_here(system, finder, whole, first));
+  do_on_all(shared.share->ranks(), [&] {
+    const std::vector<BlockSurface>& surfaces = finder.surfaces();
+    for (const auto& [blocks, history] : whole.run.pairs) {
+      const auto [a, b] = blocks;
+      if (!system.here(a) || !system.here(b) || !(system.owns(a) || system.owns(b))) continue;
+      PairHistory& pair = state.pairs[blocks] = history;
+      if (pair.cache != nullptr)
+        pair.cache = with_rows(*pair.cache, system.blocks()[at(a)], system.blocks()[at(b)], surfaces[at(a)],
+                               surfaces[at(b)]);
+    }
+  });
+  update_ghost_contacts(system, state);
+  for (const PairRecord& record : whole.run.records)
+    if (system.here(record.a) && system.here(record.b)) state.records.push_back(record);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,23 @@
+// Snapshots of a run that several ranks share: the whole of it on the first rank, from which any number of ranks, or one
+// process alone, goes on.
+#pragma once
+
+#include "solver/run/run_totals.hpp"
+#include "solver/step/ghosts.hpp"
+#include "solver/step/snapshot.hpp"
+
+namespace ashlar {
+
+/// Puts the snapshots of all ranks together, without factors. Collective. @param part snapshot_of() on this rank
+/// @param totals of the run, on the first rank; null on others
+/// @return on the first rank that of the run, on others `part`
+[[nodiscard]] SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
+                                                const RunTotals* totals);
+
+/// Restores the part of this rank, and finds its ghosts. Sums of the run so far are kept by the first rank. Collective.
+/// @param whole of the run, the same on all ranks
+/// @throws std::invalid_argument on all ranks if it was taken of other blocks
+void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                  const SimulationSnapshot& whole);
+
+}  // namespace ashlar
