@@ -21,8 +21,9 @@ struct Side {
 };
 
 /// True if a body's surface turns away from another one behind side k of a cell, which is on an edge. At edges of a
-/// notch and between faces coplanar within rounding error it does not.
-bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vector3& other_normal) {
+/// notch and between faces coplanar within rounding error it does not. @param least sine of the turn
+bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vector3& other_normal,
+                double least) {
   const SurfaceCell& cell = body.surface().cells[at(index)];
   const std::array<int, 2> ends{cell.corners[k], cell.corners[(k + 1) % cell.corners.size()]};
   for (const SurfaceEdge& edge : body.surface().edges) {
@@ -30,16 +31,15 @@ bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vecto
     if (!as_left && edge.ends != std::array{ends[1], ends[0]}) continue;
     const Vector3& behind = body.normal(edge.cells[as_left ? 1 : 0]);
     const Vector3 along = body.point(ends[1]) - body.point(ends[0]);
-    constexpr double rounding = 1e-9;
-    return along.cross(behind).dot(other_normal) > rounding * along.norm();
+    return along.cross(behind).dot(other_normal) > least * along.norm();
   }
   return false;
 }
 
 /// For a side of an overlap on an edge around a cell's face, within rounding error: true if the surface turns away
 /// there. Empty for other sides.
-/// @param other_normal of the other cell
-std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3& other_normal,
+/// @param other_normal of the other cell. @param least sine of a turn
+std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3& other_normal, double least,
                             const ViewFrame& frame, const Side& side, double tolerance) {
   const SurfaceCell& cell = body.surface().cells[at(index)];
   for (std::size_t k = 0; k < cell.corners.size(); ++k) {
@@ -52,7 +52,7 @@ std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3&
       return std::abs(along.x() * off.y() - along.y() * off.x()) / along.norm();
     };
     if (distance(side.start) <= tolerance && distance(side.end) <= tolerance)
-      return turns_away(body, index, k, other_normal);
+      return turns_away(body, index, k, other_normal, least);
   }
   return std::nullopt;
 }
@@ -61,6 +61,9 @@ std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3&
 struct SeenOverlap {
   std::vector<double> gaps;  ///< at its corners, m
   Eigen::Vector2d down;      ///< direction of steepest descent of the gap in the frame's plane; zero: none
+  /// Sine of the turn of a surface at its end: more than rounding, and where a block bends more than its tilt, as flat
+  /// cells do not show less
+  double least_turn = 1e-9;
 };
 
 /// Of two flat cells.
@@ -107,10 +110,11 @@ std::vector<SeenOverlap> seen_overlaps(const ContactBody& a, const ContactBody& 
   const PlacedBlock block_a(*a.model, a.state->position), block_b(*b.model, b.state->position);
   std::vector<SeenOverlap> seen;
   for (const CellOverlap& overlap : overlaps) {
-    seen.push_back({overlap.gaps, downhill(a.placed->normal(overlap.cell_a), b.placed->normal(overlap.cell_b),
-                                           overlap.frame)});
+    SeenOverlap& one = seen.emplace_back();
+    one.gaps = overlap.gaps;
+    one.down = downhill(a.placed->normal(overlap.cell_a), b.placed->normal(overlap.cell_b), overlap.frame);
     if (!bends_a && !bends_b) continue;
-    std::vector<double>& gaps = seen.back().gaps;
+    std::vector<double>& gaps = one.gaps;
     if (bends_a) {
       const std::vector<double> higher = bulges(a, block_a, overlap.cell_a, overlap);
       for (std::size_t k = 0; k < gaps.size(); ++k) gaps[k] += higher[k];
@@ -119,9 +123,20 @@ std::vector<SeenOverlap> seen_overlaps(const ContactBody& a, const ContactBody& 
       const std::vector<double> higher = bulges(b, block_b, overlap.cell_b, overlap);
       for (std::size_t k = 0; k < gaps.size(); ++k) gaps[k] -= higher[k];
     }
-    seen.back().down = downhill(overlap, gaps);
+    one.down = downhill(overlap, gaps);
+    // Skinny triangles of one plane turn by so much through rounding; their gaps differ by the bulge all the same.
+    constexpr double of_skinny_triangles = 1e-6;
+    one.least_turn = std::max(of_skinny_triangles, one.down.norm());
   }
   return seen;
+}
+
+/// Of blocks that bend: a tilt below it moves them by less than this share of their slip, but places of the true
+/// surface vary with every iteration.
+constexpr double least_tilt = 1e-6;
+
+bool bends(const ContactBody& a, const ContactBody& b, bool curved) {
+  return curved && !(is_affine(*a.model) && is_affine(*b.model));
 }
 
 /// Faces that end at the deep end of their overlap.
@@ -141,7 +156,9 @@ class DeepEndSearch {
         overlaps_(overlaps),
         seen_(seen_overlaps(a, b, overlaps, curved)),
         goes_on_(goes_on),
-        tolerance_(outline_tolerance(a_, b_)) {}
+        tolerance_(outline_tolerance(a_, b_)),
+        least_range_(bends(a, b, curved) ? std::max(tolerance_, least_tilt * std::min(a_.size(), b_.size()))
+                                         : tolerance_) {}
 
   /// @param cells overlaps of two faces
   [[nodiscard]] DeepEnd of(const std::vector<std::size_t>& cells) const {
@@ -153,7 +170,7 @@ class DeepEndSearch {
       highest = std::max(highest, *high);
     }
     DeepEnd result;
-    if (!(highest - deepest > tolerance_)) return result;
+    if (!(highest - deepest > least_range_)) return result;
     for (const std::size_t n : cells) look_at(overlaps_[n], seen_[n], deepest, highest, result);
     return result;
   }
@@ -187,8 +204,10 @@ class DeepEndSearch {
         return goes_on_({rim_of_a, face, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
                          outward.x() * frame.e1 + outward.y() * frame.e2, near});
       };
-      const std::optional<bool> a_ends = ends_at(a_, overlap.cell_a, normal_b, frame, side, tolerance_);
-      const std::optional<bool> b_ends = ends_at(b_, overlap.cell_b, normal_a, frame, side, tolerance_);
+      const std::optional<bool> a_ends =
+          ends_at(a_, overlap.cell_a, normal_b, seen.least_turn, frame, side, tolerance_);
+      const std::optional<bool> b_ends =
+          ends_at(b_, overlap.cell_b, normal_a, seen.least_turn, frame, side, tolerance_);
       if (!a_ends && !b_ends) continue;
       // If the surface continues at the deep end, sides less aligned with it do not count instead.
       if (facing > result.facing + alike) result = {facing, false, false};
@@ -205,6 +224,7 @@ class DeepEndSearch {
   std::vector<SeenOverlap> seen_;  ///< by overlap
   const SurfaceContinues& goes_on_;
   double tolerance_;
+  double least_range_;  ///< m, of gaps of two faces that are tilted
 };
 
 /// True if the reference face is on block a where edges do not decide. @param otherwise for blocks of one kind and
