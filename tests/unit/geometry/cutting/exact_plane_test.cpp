@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "support/exact_numbers.hpp"
+
 namespace ashlar::exact_plane_test {
 namespace {
 

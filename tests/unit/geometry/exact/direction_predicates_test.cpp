@@ -7,6 +7,7 @@
 
 #include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/rational_vector.hpp"
+#include "support/exact_numbers.hpp"
 
 namespace ashlar::direction_predicates_test {
 namespace {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "support/exact_numbers.hpp"
+
 namespace ashlar::exact_rounding_test {
 namespace {
 
