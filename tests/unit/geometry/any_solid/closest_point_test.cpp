@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry/solid/shapes.hpp"
+#include "support/exact_numbers.hpp"
 #include "support/sample_meshes.hpp"
 
 namespace ashlar::closest_point_test {

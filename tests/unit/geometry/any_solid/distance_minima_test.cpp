@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/solid/shapes.hpp"
+#include "support/exact_numbers.hpp"
 #include "support/sample_meshes.hpp"
 
 namespace ashlar::distance_minima_test {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/exact_numbers.hpp"
+
 namespace ashlar::flat_projection_test {
 namespace {
 
