@@ -250,8 +250,7 @@ GoalValues Run::goals_of_measures() const {
 void Run::estimate_measures() {
   if (scene().analysis.type == SceneAnalysis::Type::statics && status_ == RunStatus::equilibrium &&
       !whole().analysis.accuracy)
-    measure_errors_ = {goal_errors(simulation(), goals_of_measures()),
-                       sub_face_errors(simulation(), goals_of_measures())};
+    measure_errors_ = goal_errors(simulation(), goals_of_measures());
 }
 
 void Run::take_iteration() {

@@ -153,7 +153,7 @@ class Run {
   /// Errors of the orders of blocks: of a dynamic run at present, of a static analysis in equilibrium. Empty: others
   [[nodiscard]] std::vector<OrderError> order_errors() const;
   /// Errors of the measures of a static analysis that has ended in equilibrium, without analysis.accuracy. Empty: others
-  [[nodiscard]] const MeasureErrors& measure_errors() const { return measure_errors_; }
+  [[nodiscard]] const std::vector<GoalError>& measure_errors() const { return measure_errors_; }
   /// Choices for analysis.accuracy; null: the scene has none, or the run has not begun
   [[nodiscard]] const AccuracyState* accuracy() const {
     return chosen_ && whole().analysis.accuracy ? &accuracy_ : nullptr;
@@ -224,7 +224,7 @@ class Run {
   std::vector<FinishedStage> finished_;  ///< those before the present stage
   RunStatus stage_status_ = RunStatus::completed;
   std::vector<std::vector<double>> rows_;
-  MeasureErrors measure_errors_;
+  std::vector<GoalError> measure_errors_;
   std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
   ContactChanges changes_;           ///< of static iterations of the present stage
   std::optional<RunStatus> status_;

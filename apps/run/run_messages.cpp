@@ -81,13 +81,12 @@ void warn_of_measures(const Run& run, std::ostream& err) {
   if (std::none_of(blocks.begin(), blocks.end(),
                    [](const BlockModel& block) { return !block.fixed() && block.order() > 1; }))
     return;
-  for (std::size_t k = 0; k < run.measure_errors().orders.size(); ++k) {
-    const double error = run.measure_errors().orders[k].relative;
+  for (std::size_t k = 0; k < run.measure_errors().size(); ++k) {
+    const double error = run.measure_errors()[k].relative;
     if (!(error > ordinary_order_error)) continue;
     err << fmt::format(
-        "ashlar: warning: the estimated error of measure {} by the orders of blocks is {:.0f} %: higher "
-        "orders "
-        "or smaller tied blocks are needed, or analysis.accuracy, which chooses them\n",
+        "ashlar: warning: the estimated error of measure {} by the orders of blocks is {:.0f} %: use higher "
+        "orders, smaller tied blocks, or analysis.accuracy, which chooses orders\n",
         run.scene().measure[k].name, 100.0 * error);
   }
 }

@@ -38,10 +38,10 @@ std::vector<BlockModel> with_next_orders(const Simulation& simulation) {
   return any && unknowns <= largest_goal_system ? std::move(result) : std::vector<BlockModel>{};
 }
 
-/// The same blocks with other models and sub-faces, in the same state, without the memory of their contacts.
+/// The same blocks with other models, in the same state, without the memory of their contacts.
 /// @param simulation must outlive it
 Simulation with_models(const Simulation& simulation, std::vector<BlockModel> models,
-                       const SimulationSettings& settings, SimulationSnapshot present) {
+                       SimulationSnapshot present) {
   const BlockSystem& system = simulation.system();
   for (std::size_t k = 0; k < models.size(); ++k)
     if (models[k].order() != system.blocks()[k].order())
@@ -50,8 +50,8 @@ Simulation with_models(const Simulation& simulation, std::vector<BlockModel> mod
   for (const TiedBlocks& tie : system.ties()) ties.push_back({tie.a, tie.b, tie.stiffness});
   const std::vector<InitialMotion> at_rest(models.size());
   Simulation result(
-      std::move(models), at_rest, [&system](int a, int b) { return system.law(a, b); }, settings, ties,
-      system.absent());
+      std::move(models), at_rest, [&system](int a, int b) { return system.law(a, b); }, system.settings(),
+      ties, system.absent());
   if (!system.bolts().empty()) result.add_bolts(system.bolts());
   present.finder = result.snapshot().finder;
   present.factors.clear();
@@ -190,14 +190,12 @@ class Correction {
   std::map<std::size_t, std::size_t> record_of_;  ///< by pair of the problem; ties have none
 };
 
-/// @param factor of the changes
-std::vector<GoalError> errors_between(const std::vector<Goal>& before, const std::vector<Goal>& after,
-                                      double factor) {
+std::vector<GoalError> errors_between(const std::vector<Goal>& before, const std::vector<Goal>& after) {
   std::vector<GoalError> errors;
   for (std::size_t n = 0; n < before.size(); ++n) {
     GoalError& error = errors.emplace_back();
     for (std::size_t k = 0; k < before[n].values.size(); ++k)
-      error.change.push_back(factor * (after[n].values[k] - before[n].values[k]));
+      error.change.push_back(after[n].values[k] - before[n].values[k]);
     const double length = goal_length(error.change);
     const double scale = std::max(goal_length(after[n].values), before[n].least);
     if (length > 0.0 && scale > 0.0) error.relative = length / scale;
@@ -216,33 +214,9 @@ std::vector<GoalError> goal_errors(const Simulation& simulation, const GoalValue
   SimulationSnapshot present = simulation.snapshot();
   // No contact is detected: the points are those of its records.
   present.run.pairs.clear();
-  Simulation higher =
-      with_models(simulation, std::move(models), simulation.system().settings(), std::move(present));
+  Simulation higher = with_models(simulation, std::move(models), std::move(present));
   if (!Correction(simulation, higher).apply()) return {};
-  return errors_between(before, goals(higher), 1.0);
-}
-
-std::vector<GoalError> sub_face_errors(const Simulation& simulation, const GoalValues& goals) {
-  const SimulationSettings& given = simulation.system().settings();
-  if (simulation.system().any_incremental() || given.search.subdivisions > 0 || !given.curved_surface ||
-      !has_curved_contacts(simulation))
-    return {};
-  const std::vector<Goal> before = goals(simulation);
-  if (before.empty()) return {};
-  SimulationSettings settings = given;
-  settings.search.chord_tolerance /= of_chord;
-  SimulationSnapshot present = simulation.snapshot();
-  for (auto& [blocks, pair] : present.run.pairs) pair.cache.reset();
-  StaticState& statics = present.run.statics;
-  statics.balanced = false;
-  statics.still_iterations = statics.iterations = 0;
-  Simulation finer = with_models(simulation, simulation.blocks(), settings, std::move(present));
-  // The second one with the multipliers that the first has found.
-  for (int iteration = 0; iteration < 2; ++iteration)
-    if (const StaticStatus status = finer.static_step(simulation.time());
-        status != StaticStatus::balancing && status != StaticStatus::equilibrium)
-      return {};
-  return errors_between(before, goals(finer), of_chord / (of_chord - 1.0));
+  return errors_between(before, goals(higher));
 }
 
 }  // namespace ashlar

@@ -35,11 +35,4 @@ struct GoalError {
 /// larger than largest_goal_system, and where no block has another order
 [[nodiscard]] std::vector<GoalError> goal_errors(const Simulation& simulation, const GoalValues& goals);
 
-/// Errors by the sub-faces of curved faces in contact: two iterations with a quarter of the chord tolerance, from the
-/// equilibrium. Errors of gaps are proportional to that tolerance, so that changes are 3/4 of the error: of its size, as
-/// places of points change with the sub-faces.
-/// @return by goal; empty without goals, for incremental blocks, without curved faces in contact or with a given number of
-/// subdivisions, and where the iterations find no balance
-[[nodiscard]] std::vector<GoalError> sub_face_errors(const Simulation& simulation, const GoalValues& goals);
-
 }  // namespace ashlar

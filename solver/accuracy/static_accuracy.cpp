@@ -81,6 +81,9 @@ double order_error_of(const std::vector<AccuracyRound>& rounds, std::size_t inde
   return rounds.size() > 2 ? std::min(in_norm, relative_to(distance_to_limit(rounds, index), goal)) : in_norm;
 }
 
+/// Sub-faces: errors of gaps are proportional to the chord tolerance, which a round divides by this.
+constexpr double of_chord = 4.0;
+
 double sub_face_error_of(const AccuracyRounds& rounds, std::size_t index, const Goal& goal) {
   if (rounds.sub_faces.empty()) return 0.0;
   const std::vector<double>& before = rounds.sub_faces.size() > 1
@@ -191,6 +194,14 @@ bool raise_all(Simulation& simulation, const AccuracyRequest& request, AccuracyR
   return raise(simulation, blocks, rounds);
 }
 
+/// True if a curved face is in contact.
+bool has_curved_contacts(const Simulation& simulation) {
+  return std::any_of(simulation.contacts().begin(), simulation.contacts().end(), [&](const PairRecord& pair) {
+    const std::vector<BlockSurface>& surfaces = simulation.finder().surfaces();
+    return !pair.points.empty() && (surfaces[at(pair.a)].curves() || surfaces[at(pair.b)].curves());
+  });
+}
+
 /// The last chord tolerance suffices, or more sub-faces are of no use.
 bool sub_faces_suffice(const AccuracyRequest& request, const std::vector<Goal>& goals,
                        const AccuracyRounds& rounds) {
@@ -212,13 +223,6 @@ int slow_block_of(const std::vector<AccuracyRound>& rounds) {
 }
 
 }  // namespace
-
-bool has_curved_contacts(const Simulation& simulation) {
-  return std::any_of(simulation.contacts().begin(), simulation.contacts().end(), [&](const PairRecord& pair) {
-    const std::vector<BlockSurface>& surfaces = simulation.finder().surfaces();
-    return !pair.points.empty() && (surfaces[at(pair.a)].curves() || surfaces[at(pair.b)].curves());
-  });
-}
 
 bool raise_orders(Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
                   AccuracyRounds& rounds) {

@@ -21,12 +21,6 @@
 
 namespace ashlar {
 
-/// Sub-faces: errors of gaps are proportional to the chord tolerance, which a round divides by this.
-inline constexpr double of_chord = 4.0;
-
-/// True if a curved face is in contact.
-[[nodiscard]] bool has_curved_contacts(const Simulation& simulation);
-
 /// A result whose error is to be small: a number or the components of a vector.
 struct Goal {
   std::string name;

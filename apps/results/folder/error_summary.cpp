@@ -53,18 +53,10 @@ nlohmann::ordered_json error_summary(const Simulation& simulation, const std::ve
   return {{"estimate", estimate}, {"by", {{"order", estimate}}}, {"blocks", std::move(blocks)}};
 }
 
-void add_measure_errors(const Scene& scene, const MeasureErrors& errors, nlohmann::ordered_json& summary) {
-  std::vector<double> sums(scene.measure.size(), 0.0);
-  double by_sub_faces = 0.0;
-  for (std::size_t k = 0; k < errors.orders.size(); ++k) sums[k] += errors.orders[k].relative;
-  for (std::size_t k = 0; k < errors.sub_faces.size(); ++k) {
-    sums[k] += errors.sub_faces[k].relative;
-    by_sub_faces = std::max(by_sub_faces, errors.sub_faces[k].relative);
-  }
-  if (!errors.sub_faces.empty()) summary["by"]["sub_faces"] = by_sub_faces;
-  if (errors.orders.empty()) return;
+void add_measure_errors(const Scene& scene, const std::vector<GoalError>& errors,
+                        nlohmann::ordered_json& summary) {
   Json measures = Json::object();
-  for (std::size_t k = 0; k < sums.size(); ++k) measures[scene.measure[k].name] = sums[k];
+  for (std::size_t k = 0; k < errors.size(); ++k) measures[scene.measure[k].name] = errors[k].relative;
   summary["measures"] = std::move(measures);
 }
 

@@ -21,16 +21,9 @@ inline constexpr double ordinary_order_error = 0.1;
 [[nodiscard]] nlohmann::ordered_json error_summary(const Simulation& simulation,
                                                    const std::vector<OrderError>& errors);
 
-/// Errors of all measures of an equilibrium (goal_error.hpp). Empty vectors: not estimated.
-struct MeasureErrors {
-  std::vector<GoalError> orders;
-  std::vector<GoalError> sub_faces;
-
-  [[nodiscard]] bool empty() const { return orders.empty() && sub_faces.empty(); }
-};
-
-/// Adds by.sub_faces, the largest of all measures, and `measures`: the relative error of each by orders and sub-faces.
-void add_measure_errors(const Scene& scene, const MeasureErrors& errors, nlohmann::ordered_json& summary);
+/// Adds `measures`: the relative error of each by the orders of blocks. @param errors by measure
+void add_measure_errors(const Scene& scene, const std::vector<GoalError>& errors,
+                        nlohmann::ordered_json& summary);
 
 /// The block to be refined first, if all blocks of order 2 and more together have more than ordinary_order_error; those
 /// of order 1 are chosen for their motion, not for their stress.

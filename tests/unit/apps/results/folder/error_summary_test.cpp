@@ -58,14 +58,10 @@ TEST_F(AccuracySummary, BlocksLeftAtLowOrdersAreCounted) {
   EXPECT_EQ(accuracy_summary(scene_, simulation_, state_)["skipped"], 0);
 }
 
-TEST_F(AccuracySummary, ErrorsOfMeasuresAreSums) {
+TEST_F(AccuracySummary, ErrorsOfMeasuresAreByName) {
   nlohmann::ordered_json json;
-  add_measure_errors(scene_, {{{{1.0}, 0.1}, {{1.0}, 0.2}}, {}}, json);
+  add_measure_errors(scene_, {{{1.0}, 0.1}, {{1.0}, 0.2}}, json);
   EXPECT_EQ(json["measures"], (nlohmann::ordered_json{{"first", 0.1}, {"second", 0.2}}));
-  EXPECT_FALSE(json.contains("by"));
-  add_measure_errors(scene_, {{{{1.0}, 0.1}, {{1.0}, 0.2}}, {{{1.0}, 0.25}, {{1.0}, 0.5}}}, json);
-  EXPECT_EQ(json["measures"], (nlohmann::ordered_json{{"first", 0.35}, {"second", 0.7}}));
-  EXPECT_EQ(json["by"]["sub_faces"], 0.5);
 }
 
 TEST_F(AccuracySummary, AdviceIsAboutTheLargestPart) {
