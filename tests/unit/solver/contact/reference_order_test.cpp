@@ -49,7 +49,7 @@ TEST(ReferenceOrder, OfBlocksThatAreAsHighTheOneFarFromTheMiddleIs) {
 
 TEST(ReferenceOrder, WhereNothingTellsOneOfTwoIs) {
   const std::vector<BlockModel> blocks = {cube_at({0, 0, 0}), cube_at({1, 0, 0})};
-  const ReferenceOrder order(blocks, {0, 0, -9.81});
+  const ReferenceOrder order(places_of(blocks), {0, 0, -9.81});
   EXPECT_TRUE(order.is_before(1, 0));
   EXPECT_FALSE(order.is_before(0, 1));
 }
