@@ -19,7 +19,6 @@
 
 #include "apps/results/folder/accuracy_state.hpp"
 #include "apps/results/folder/contact_changes.hpp"
-#include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_clock.hpp"
@@ -32,6 +31,7 @@
 #include "apps/run/run_observer.hpp"
 #include "apps/scene/build/build_simulation.hpp"
 #include "apps/scene/build/scene_loading.hpp"
+#include "solver/accuracy/goal_error.hpp"
 #include "solver/run/order_error.hpp"
 
 namespace ashlar {
