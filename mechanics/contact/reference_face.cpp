@@ -1,6 +1,5 @@
 #include "mechanics/contact/reference_face.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +8,6 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
-#include "mechanics/contact/overlap_points.hpp"
 
 namespace ashlar {
 namespace {
@@ -21,9 +19,8 @@ struct Side {
 };
 
 /// True if a body's surface turns away from another one behind side k of a cell, which is on an edge. At edges of a
-/// notch and between faces coplanar within rounding error it does not. @param least sine of the turn
-bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vector3& other_normal,
-                double least) {
+/// notch and between faces coplanar within rounding error it does not.
+bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vector3& other_normal) {
   const SurfaceCell& cell = body.surface().cells[at(index)];
   const std::array<int, 2> ends{cell.corners[k], cell.corners[(k + 1) % cell.corners.size()]};
   for (const SurfaceEdge& edge : body.surface().edges) {
@@ -31,15 +28,16 @@ bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vecto
     if (!as_left && edge.ends != std::array{ends[1], ends[0]}) continue;
     const Vector3& behind = body.normal(edge.cells[as_left ? 1 : 0]);
     const Vector3 along = body.point(ends[1]) - body.point(ends[0]);
-    return along.cross(behind).dot(other_normal) > least * along.norm();
+    constexpr double rounding = 1e-9;
+    return along.cross(behind).dot(other_normal) > rounding * along.norm();
   }
   return false;
 }
 
 /// For a side of an overlap on an edge around a cell's face, within rounding error: true if the surface turns away
 /// there. Empty for other sides.
-/// @param other_normal of the other cell. @param least sine of a turn
-std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3& other_normal, double least,
+/// @param other_normal of the other cell
+std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3& other_normal,
                             const ViewFrame& frame, const Side& side, double tolerance) {
   const SurfaceCell& cell = body.surface().cells[at(index)];
   for (std::size_t k = 0; k < cell.corners.size(); ++k) {
@@ -52,91 +50,18 @@ std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3&
       return std::abs(along.x() * off.y() - along.y() * off.x()) / along.norm();
     };
     if (distance(side.start) <= tolerance && distance(side.end) <= tolerance)
-      return turns_away(body, index, k, other_normal, least);
+      return turns_away(body, index, k, other_normal);
   }
   return std::nullopt;
 }
 
-/// An overlap as far as its deep end is concerned.
-struct SeenOverlap {
-  std::vector<double> gaps;  ///< at its corners, m
-  Eigen::Vector2d down;      ///< direction of steepest descent of the gap in the frame's plane; zero: none
-  /// Sine of the turn of a surface at its end: more than rounding, and where a block bends more than its tilt, as flat
-  /// cells do not show less
-  double least_turn = 1e-9;
-};
-
-/// Of two flat cells.
+/// Direction of steepest descent of the gap of two flat cells, in the frame's plane.
 Eigen::Vector2d downhill(const Vector3& normal_a, const Vector3& normal_b, const ViewFrame& frame) {
   const auto slope = [&](const Vector3& normal) {
     return Eigen::Vector2d(-Eigen::Vector2d(normal.dot(frame.e1), normal.dot(frame.e2)) /
                            normal.dot(frame.w));
   };
   return slope(normal_b) - slope(normal_a);
-}
-
-/// Of a plane through gaps at the corners, by least squares.
-Eigen::Vector2d downhill(const CellOverlap& overlap, const std::vector<double>& gaps) {
-  const auto count = static_cast<double>(gaps.size());
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const OverlapCorner& corner : overlap.corners) middle += corner.place / count;
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d products = Eigen::Vector2d::Zero();
-  for (std::size_t k = 0; k < gaps.size(); ++k) {
-    const Eigen::Vector2d off = overlap.corners[k].place - middle;
-    squares += off * off.transpose();
-    products += gaps[k] * off;
-  }
-  // A sliver has a slope along it only.
-  return -squares.completeOrthogonalDecomposition().solve(products);
-}
-
-/// Distances of a body's true surface from its flat cell along w of the frame, at the corners of an overlap, m.
-std::vector<double> bulges(const ContactBody& body, const PlacedBlock& block, int cell,
-                           const CellOverlap& overlap) {
-  const CellMap map(body, cell, overlap.frame);
-  std::vector<double> result;
-  for (const OverlapCorner& corner : overlap.corners)
-    result.push_back(
-        overlap.frame.w.dot(block.place(map.reference(corner.place)) - map.placed(corner.place)));
-  return result;
-}
-
-/// @param curved gaps are those of the true surfaces: flat cells of a block that bends are tilted otherwise, by
-/// rounding alone where they are as long as the contact
-std::vector<SeenOverlap> seen_overlaps(const ContactBody& a, const ContactBody& b,
-                                       const std::vector<CellOverlap>& overlaps, bool curved) {
-  const bool bends_a = curved && !is_affine(*a.model), bends_b = curved && !is_affine(*b.model);
-  const PlacedBlock block_a(*a.model, a.state->position), block_b(*b.model, b.state->position);
-  std::vector<SeenOverlap> seen;
-  for (const CellOverlap& overlap : overlaps) {
-    SeenOverlap& one = seen.emplace_back();
-    one.gaps = overlap.gaps;
-    one.down = downhill(a.placed->normal(overlap.cell_a), b.placed->normal(overlap.cell_b), overlap.frame);
-    if (!bends_a && !bends_b) continue;
-    std::vector<double>& gaps = one.gaps;
-    if (bends_a) {
-      const std::vector<double> higher = bulges(a, block_a, overlap.cell_a, overlap);
-      for (std::size_t k = 0; k < gaps.size(); ++k) gaps[k] += higher[k];
-    }
-    if (bends_b) {
-      const std::vector<double> higher = bulges(b, block_b, overlap.cell_b, overlap);
-      for (std::size_t k = 0; k < gaps.size(); ++k) gaps[k] -= higher[k];
-    }
-    one.down = downhill(overlap, gaps);
-    // Skinny triangles of one plane turn by so much through rounding; their gaps differ by the bulge all the same.
-    constexpr double of_skinny_triangles = 1e-6;
-    one.least_turn = std::max(of_skinny_triangles, one.down.norm());
-  }
-  return seen;
-}
-
-/// Of blocks that bend: a tilt below it moves them by less than this share of their slip, but places of the true
-/// surface vary with every iteration.
-constexpr double least_tilt = 1e-6;
-
-bool bends(const ContactBody& a, const ContactBody& b, bool curved) {
-  return curved && !(is_affine(*a.model) && is_affine(*b.model));
 }
 
 /// Faces that end at the deep end of their overlap.
@@ -149,44 +74,36 @@ struct DeepEnd {
 
 class DeepEndSearch {
  public:
-  DeepEndSearch(const ContactBody& a, const ContactBody& b, const std::vector<CellOverlap>& overlaps,
-                const SurfaceContinues& goes_on, bool curved)
-      : a_(*a.placed),
-        b_(*b.placed),
-        overlaps_(overlaps),
-        seen_(seen_overlaps(a, b, overlaps, curved)),
-        goes_on_(goes_on),
-        tolerance_(outline_tolerance(a_, b_)),
-        least_range_(bends(a, b, curved) ? std::max(tolerance_, least_tilt * std::min(a_.size(), b_.size()))
-                                         : tolerance_) {}
+  DeepEndSearch(const PlacedSurface& a, const PlacedSurface& b, const std::vector<CellOverlap>& overlaps,
+                const SurfaceContinues& goes_on)
+      : a_(a), b_(b), overlaps_(overlaps), goes_on_(goes_on), tolerance_(outline_tolerance(a, b)) {}
 
   /// @param cells overlaps of two faces
   [[nodiscard]] DeepEnd of(const std::vector<std::size_t>& cells) const {
-    double deepest = seen_[cells.front()].gaps.front();
+    double deepest = overlaps_[cells.front()].gaps.front();
     double highest = deepest;
     for (const std::size_t n : cells) {
-      const auto [low, high] = std::minmax_element(seen_[n].gaps.begin(), seen_[n].gaps.end());
+      const auto [low, high] = std::minmax_element(overlaps_[n].gaps.begin(), overlaps_[n].gaps.end());
       deepest = std::min(deepest, *low);
       highest = std::max(highest, *high);
     }
     DeepEnd result;
-    if (!(highest - deepest > least_range_)) return result;
-    for (const std::size_t n : cells) look_at(overlaps_[n], seen_[n], deepest, highest, result);
+    if (!(highest - deepest > tolerance_)) return result;
+    for (const std::size_t n : cells) look_at(overlaps_[n], deepest, highest, result);
     return result;
   }
 
  private:
   /// Examines sides with a deep corner.
-  void look_at(const CellOverlap& overlap, const SeenOverlap& seen, double deepest, double highest,
-               DeepEnd& result) const {
+  void look_at(const CellOverlap& overlap, double deepest, double highest, DeepEnd& result) const {
     const std::size_t count = overlap.corners.size();
     const Vector3& normal_a = a_.normal(overlap.cell_a);
     const Vector3& normal_b = b_.normal(overlap.cell_b);
-    const Eigen::Vector2d& down = seen.down;
+    const Eigen::Vector2d down = downhill(normal_a, normal_b, overlap.frame);
     if (down.isZero(0.0)) return;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t next = (k + 1) % count;
-      if (std::min(seen.gaps[k], seen.gaps[next]) > deepest + tolerance_) continue;
+      if (std::min(overlap.gaps[k], overlap.gaps[next]) > deepest + tolerance_) continue;
       const Side side{overlap.corners[k].place, overlap.corners[next].place};
       const Eigen::Vector2d along = side.end - side.start;
       if (!(along.norm() > tolerance_)) continue;
@@ -197,17 +114,15 @@ class DeepEndSearch {
       if (!(facing > alike) || facing < result.facing - alike) continue;
       const Eigen::Vector2d middle = 0.5 * (side.start + side.end);
       // A surface that continues lower than the edge by up to a tenth of the effect of the tilt counts as continuing.
-      const double gap = 0.5 * (seen.gaps[k] + seen.gaps[next]);
+      const double gap = 0.5 * (overlap.gaps[k] + overlap.gaps[next]);
       const double near = std::max(0.0, gap) + std::max(tolerance_, 0.1 * (highest - deepest));
       const ViewFrame& frame = overlap.frame;
       const auto goes_on = [&](bool rim_of_a, int face) {
         return goes_on_({rim_of_a, face, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
                          outward.x() * frame.e1 + outward.y() * frame.e2, near});
       };
-      const std::optional<bool> a_ends =
-          ends_at(a_, overlap.cell_a, normal_b, seen.least_turn, frame, side, tolerance_);
-      const std::optional<bool> b_ends =
-          ends_at(b_, overlap.cell_b, normal_a, seen.least_turn, frame, side, tolerance_);
+      const std::optional<bool> a_ends = ends_at(a_, overlap.cell_a, normal_b, frame, side, tolerance_);
+      const std::optional<bool> b_ends = ends_at(b_, overlap.cell_b, normal_a, frame, side, tolerance_);
       if (!a_ends && !b_ends) continue;
       // If the surface continues at the deep end, sides less aligned with it do not count instead.
       if (facing > result.facing + alike) result = {facing, false, false};
@@ -221,10 +136,8 @@ class DeepEndSearch {
   const PlacedSurface& a_;
   const PlacedSurface& b_;
   const std::vector<CellOverlap>& overlaps_;
-  std::vector<SeenOverlap> seen_;  ///< by overlap
   const SurfaceContinues& goes_on_;
   double tolerance_;
-  double least_range_;  ///< m, of gaps of two faces that are tilted
 };
 
 /// True if the reference face is on block a where edges do not decide. @param otherwise for blocks of one kind and
@@ -246,14 +159,14 @@ bool is_first_by_kind(const ContactBody& a, const ContactBody& b, bool otherwise
 
 std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
                                     const std::vector<CellOverlap>& overlaps, const SurfaceContinues& goes_on,
-                                    bool otherwise, bool curved) {
+                                    bool otherwise) {
   std::map<std::array<int, 2>, std::vector<std::size_t>> of_faces;
   for (std::size_t n = 0; n < overlaps.size(); ++n) {
     of_faces[{a.placed->surface().cells[at(overlaps[n].cell_a)].face,
               b.placed->surface().cells[at(overlaps[n].cell_b)].face}]
         .push_back(n);
   }
-  const DeepEndSearch search(a, b, overlaps, goes_on, curved);
+  const DeepEndSearch search(*a.placed, *b.placed, overlaps, goes_on);
   std::vector<bool> result(overlaps.size(), is_first_by_kind(a, b, otherwise));
   for (const auto& [faces, cells] : of_faces) {
     const DeepEnd end = search.of(cells);

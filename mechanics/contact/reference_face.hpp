@@ -28,15 +28,13 @@ using SurfaceContinues = std::function<bool(const RimPlace&)>;
 
 /// By overlap, true if the reference face is on block a. For all overlaps of two faces it is on the block whose face
 /// does not end at their deep end: where a face ends, its surface turns away from the other one and no block
-/// continues it. Edges of both or of none, and gaps that vary within rounding error (outline_tolerance), of
-/// blocks that bend by less than 1e-6 of the smaller size, do not decide. Then fixed blocks precede others, undivided surfaces precede divided ones, and larger volumes precede
+/// continues it. Edges of both or of none, and gaps that vary within rounding error (outline_tolerance), do not
+/// decide. Then fixed blocks precede others, undivided surfaces precede divided ones, and larger volumes precede
 /// those smaller by more than rounding.
 /// @param otherwise true if a has the reference face of equal blocks: nothing in the pair decides
-/// @param curved gaps are those of the true surfaces of blocks that bend, not of their flat cells
 /// @return (#overlaps)
 [[nodiscard]] std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
                                                   const std::vector<CellOverlap>& overlaps,
-                                                  const SurfaceContinues& goes_on, bool otherwise = false,
-                                                  bool curved = false);
+                                                  const SurfaceContinues& goes_on, bool otherwise = false);
 
 }  // namespace ashlar

@@ -271,7 +271,7 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
       [&covered, a = a, b = b](const RimPlace& rim) {
         return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
       },
-      order_.is_before(a, b), settings.curved_surface);
+      order_.is_before(a, b));
   ContactPoints made = contact_points(body_a, body_b, contacts, references_on_a, point_settings,
                                       known.memory.cuts(), known.memory.turning());
   std::vector<ContactPoint> points = made.points;

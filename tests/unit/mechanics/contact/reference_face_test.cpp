@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <numbers>
 #include <utility>
 
@@ -134,36 +134,6 @@ TEST(ContactMaster, EndsOfFacesCountWhereTheSurfaceTurnsAway) {
       EXPECT_EQ(result[k], fall == 8.0) << fall << " " << overlaps[k].cell_b;
     }
   }
-}
-
-/// Lower face z = x (x - 4) / 1000: its corners are where they were.
-void sag(Body& beam) {
-  const PolynomialBasis& basis = beam.model.basis();
-  std::vector<Vector3> points;
-  for (int i = 0; i <= 4; ++i)
-    for (int j = 0; j <= 4; ++j)
-      for (int k = 0; k <= 4; ++k) points.emplace_back(i, 0.25 * j, 0.125 * k);
-  Eigen::VectorXd field(static_cast<Eigen::Index>(points.size()));
-  for (std::size_t k = 0; k < points.size(); ++k)
-    field[static_cast<Eigen::Index>(k)] = 1e-3 * points[k].x() * (points[k].x() - 4.0);
-  const Eigen::MatrixXd values = basis.values(points);
-  beam.state.position.col(2) += values.colPivHouseholderQr().solve(field);
-}
-
-// The sub-face from end to end of a beam that sags is parallel to the top of its leg; the true surface meets the leg's
-// inner edge.
-TEST(ContactMaster, IsChosenByTrueSurfacesOfBlocksThatBend) {
-  Body beam(block_of("beam", Polyhedron(make_box({0, 0, 0}, {4, 1, 0.5})), {2500, 1e9, 0.2}, 2));
-  sag(beam);
-  const Body leg(Polyhedron(make_box({0, 0, -6}, {0.5, 1, 0})));
-  const ContactLimits limits{0.1, 0.1, 10.0 * std::numbers::pi / 180.0};
-  const std::vector<CellOverlap> overlaps = find_contacts(beam.placed, leg.placed, limits).overlaps;
-  ASSERT_FALSE(overlaps.empty());
-  const auto is_on_beam = [&](bool curved) {
-    return reference_is_on_a(beam.contact(), leg.contact(), overlaps, nothing, false, curved);
-  };
-  EXPECT_EQ(is_on_beam(false), std::vector<bool>(overlaps.size(), false)) << "the leg is larger";
-  EXPECT_EQ(is_on_beam(true), std::vector<bool>(overlaps.size(), true));
 }
 
 TEST(ContactMaster, OfEqualBlocksIsWhatIsSaid) {

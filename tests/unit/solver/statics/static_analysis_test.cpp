@@ -200,30 +200,6 @@ TEST(StaticAnalysis, SoftPlatesOnStiffPiersSettleWithMultipliers) {
   }
 }
 
-TEST(StaticAnalysis, ABeamThatBendsOnBlocksThatDoNotComesToRest) {
-  // Its flat sub-face from end to end is parallel to the legs but for rounding, which chose the reference face anew in
-  // each iteration, with normals that differ by 7e-4: iterations had a cycle of three for ever.
-  for (const int order : {4, 6}) {
-    SimulationSettings settings;
-    settings.augmented = true;
-    settings.contact_distance = 8e-4;
-    settings.search.subdivisions = 0;
-    settings.search.chord_tolerance = 4e-3;
-    settings.multipliers.penetration_tolerance = 8e-7;
-    const Material soft{2500, 1e9, 0.2};
-    std::vector<BlockModel> blocks;
-    blocks.emplace_back(fixed_box({-1, -1, -1}, {5, 2, 0}));
-    for (const double x : {0.0, 3.5})
-      blocks.emplace_back(block_of("leg", Polyhedron(make_box({x, 0, 0}, {x + 0.5, 1, 1})), soft, 1));
-    blocks.emplace_back(block_of("beam", Polyhedron(make_box({0, 0, 1}, {4, 1, 1.5})), soft, order));
-    const std::vector<InitialMotion> at_rest(4);
-    Simulation simulation(std::move(blocks), at_rest, same_law({2.5e10, 1.25e10, 0.577, 0.0, 0.0, true}),
-                          settings);
-    EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << order;
-    EXPECT_LT(simulation.steps(), 50) << order;
-  }
-}
-
 TEST(StaticAnalysis, LevelsOfLoadsAreMultiplesOfTheStep) {
   BlockDefinition stone = block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1);
   Load push;
