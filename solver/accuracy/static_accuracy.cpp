@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "geometry/index.hpp"
 #include "solver/accuracy/chosen_orders.hpp"
@@ -50,7 +51,7 @@ AccuracyRound round_of(const Simulation& simulation, const std::vector<Goal>& go
 /// Estimated distance of a goal to its limit. Changes are those over two rounds: an even function has no odd part, so that
 /// every second order may change nothing. The ratio of two of them is bounded from below, as a change that is small by
 /// chance is not the end, and from above, where the sum of what is left would have no meaning.
-double distance_to_limit(const std::vector<AccuracyRound>& rounds, std::size_t goal) {
+double distance_to_limit(std::span<const AccuracyRound> rounds, std::size_t goal) {
   constexpr double least_ratio = 1.0 / 3.0, largest_ratio = 0.8, unknown_ratio = 0.5;
   const auto change = [&](std::size_t k) {
     return goal_distance(rounds[k].goals[goal], rounds[k - std::min<std::size_t>(k, 2)].goals[goal]);
@@ -74,9 +75,19 @@ bool is_whole(const AccuracyRound& round) {
   return true;
 }
 
+/// Rounds from the first one on in which a block deforms: supports may leave no motion to low orders, and nothing changes.
+std::span<const AccuracyRound> deforming(std::span<const AccuracyRound> rounds) {
+  const auto first = std::find_if(rounds.begin(), rounds.end(),
+                                  [](const AccuracyRound& round) { return sum_of(round.energies) > 0.0; });
+  return rounds.subspan(static_cast<std::size_t>(first - rounds.begin()));
+}
+
 /// Error of a goal by the orders of blocks. If all blocks are estimated, it is not larger than the error in the norm of
 /// the energy; after two rounds nothing else is known, as the second may have changed nothing by chance.
-double order_error_of(const std::vector<AccuracyRound>& rounds, std::size_t index, const Goal& goal) {
+double order_error_of(const std::vector<AccuracyRound>& all, std::size_t index, const Goal& goal) {
+  const bool lacks_energy = sum_of_lacks(all.back()) > 0.0;
+  const std::span<const AccuracyRound> rounds = lacks_energy ? deforming(all) : std::span(all);
+  if (rounds.empty()) return std::sqrt(error_of_energy(all.back()));
   const double in_norm = is_whole(rounds.back()) ? std::sqrt(error_of_energy(rounds.back())) : no_estimate;
   return rounds.size() > 2 ? std::min(in_norm, relative_to(distance_to_limit(rounds, index), goal)) : in_norm;
 }

@@ -49,6 +49,31 @@ TEST(StaticAccuracy, RaisesTheOrderOfABarUntilItIsExact) {
   EXPECT_EQ(estimate.sub_faces, 0.0);
 }
 
+// Held at four sides, a plate has no motion of an order below 4, x (1 - x) y (1 - y): nothing changes over three rounds.
+TEST(StaticAccuracy, GoesOnWhereSupportsLeaveNoMotionToLowOrders) {
+  const GoalValues middle = [](const Simulation& now) {
+    return std::vector<Goal>{{"middle", {place_of(now, 0, {0.5, 0.5, 0.1}).z() - 0.1}}};
+  };
+  const auto plate = [](int order) {
+    BlockDefinition block =
+        block_of("plate", Polyhedron(make_box({0, 0, 0}, {1, 1, 0.2})), {2500.0, 1e9, 0.3}, order);
+    for (int axis = 0; axis < 2; ++axis)
+      for (const double side : {0.0, 1.0})
+        block.supports.push_back({Plane{side * Vector3::Unit(axis), Vector3::Unit(axis)}});
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(std::move(block));
+    return Simulation(std::move(blocks), {{}}, same_law({1e9, 1e9, 0.5}), SimulationSettings{});
+  };
+  Simulation simulation = plate(1);
+  AccuracyRounds rounds;
+  ASSERT_EQ(find_equilibrium(simulation, 1.0, {0.1, {true}}, middle, rounds, always),
+            StaticStatus::equilibrium);
+  EXPECT_GT(accuracy_estimate(middle(simulation), rounds).order, 0.0);
+  Simulation fine = plate(8);
+  ASSERT_EQ(run_static(fine, 1.0), StaticStatus::equilibrium);
+  EXPECT_NEAR(middle(simulation)[0].values[0] / middle(fine)[0].values[0], 1.0, 0.1);
+}
+
 TEST(StaticAccuracy, WithoutGoalsTheEnergyOfBlocksIsOne) {
   Simulation simulation = standing(1);
   AccuracyRounds rounds;

@@ -11,8 +11,9 @@ TEST(ErrorTimeStudy, HalfTheStepIsAQuarterOfTheErrorOfWhatTumbles) {
   const StudyResult result = study_error_time({2, 1, 2});
   EXPECT_TRUE(result.holds) << "chosen runs meet what is asked";
   ASSERT_EQ(result.columns.size(), 12U);
-  // Curves of two steps: seven, four and six, and eight orders; six of two accuracies.
-  ASSERT_EQ(result.rows.size(), 2U * 17U + 8U + 2U * 6U);
+  // Curves of two steps: seven, four and six, and eight orders; six of two accuracies. Plate: eight orders, two accuracies;
+  // sphere: one order; rocking and bars: two curves of two steps each; bars: two accuracies.
+  ASSERT_EQ(result.rows.size(), 2U * 17U + 8U + 2U * 6U + 8U + 2U + 1U + 2U * 4U + 2U);
   for (const PlotSeries& series : result.plot.series) {
     ASSERT_EQ(series.x.size(), series.y.size());
     if (series.name == "tumbling: order 0, dda" || series.name == "swelling: order 1, average") {
