@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "apps/results/folder/run_checkpoint.hpp"
-#include "apps/results/tables/measure_goals.hpp"
 #include "apps/run/accuracy_choice.hpp"
 #include "apps/run/answer_search.hpp"
 #include "apps/run/answer_summary.hpp"
@@ -242,17 +241,7 @@ void Run::take_step() {
   if (simulation.reached(end_time)) end_stage(RunStatus::completed, "");
 }
 
-GoalValues Run::goals_of_measures() const {
-  return [this](const Simulation& now) { return goals_of(now, measures_); };
-}
-
 /// The last state is that of the answer now.
-void Run::estimate_measures() {
-  if (scene().analysis.type == SceneAnalysis::Type::statics && status_ == RunStatus::equilibrium &&
-      !whole().analysis.accuracy)
-    measure_errors_ = goal_errors(simulation(), goals_of_measures());
-}
-
 void Run::take_iteration() {
   if (!observers_.go_on()) return interrupt();
   Simulation& simulation = built_.simulation;

@@ -8,6 +8,7 @@
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/folder/run_summary.hpp"
+#include "apps/results/tables/measure_goals.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/accuracy_choice.hpp"
@@ -195,6 +196,16 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
   if (!measure_errors_.empty()) add_measure_errors(scene(), measure_errors_, summary["error"]);
   add_answer(summary, answer_, whole().analysis, simulation());
   return json_text(summary, 2) + "\n";
+}
+
+GoalValues Run::goals_of_measures() const {
+  return [this](const Simulation& now) { return goals_of(now, measures_); };
+}
+
+void Run::estimate_measures() {
+  if (scene().analysis.type == SceneAnalysis::Type::statics && status_ == RunStatus::equilibrium &&
+      !whole().analysis.accuracy)
+    measure_errors_ = goal_errors(simulation(), goals_of_measures());
 }
 
 void Run::write_summary() const {
