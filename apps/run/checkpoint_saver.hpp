@@ -17,10 +17,9 @@ namespace ashlar {
 /// All members throw std::runtime_error with path and reason if the state cannot be written.
 class CheckpointSaver : public RunObserver {
  public:
-  /// @param recorder not null, attached before this. @param interval s between checkpoints, >= 0; empty: growing, see
+  /// @param recorder attached before this; null on ranks that do not write. @param interval s between checkpoints, >= 0; empty: growing, see
   /// CheckpointSchedule. @param saved the folder has a checkpoint of the run
-  /// @param ranks that share the run, each with a saver whose members are collective; null: one. The recorder of those
-  /// that do not write is null
+  /// @param ranks that share the run, each with a saver whose members are collective; null: one
   CheckpointSaver(std::shared_ptr<FolderRecorder> recorder, std::optional<double> interval, bool saved,
                   Ranks* ranks = nullptr);
 

@@ -55,7 +55,9 @@ Run::Run(std::shared_ptr<const LoadedScene> scene, BuiltSimulation built, const 
       identity_(scene_identity(*scene_)),
       manner_(manner),
       built_(std::move(built)),
-      measures_(measures_of(scene_->scene, built_.simulation.blocks())),
+      measures_(manner.ranks == nullptr || manner.ranks->first()
+                    ? measures_of(scene_->scene, built_.simulation.blocks())
+                    : std::vector<Measure>()),
       points_(std::make_unique<const BlockPoints>()) {
   clock_.add_since(manner.began);
 }
@@ -241,7 +243,6 @@ void Run::take_step() {
   if (simulation.reached(end_time)) end_stage(RunStatus::completed, "");
 }
 
-/// The last state is that of the answer now.
 void Run::take_iteration() {
   if (!observers_.go_on()) return interrupt();
   Simulation& simulation = built_.simulation;

@@ -197,8 +197,7 @@ std::vector<GoalError> errors_between(const std::vector<Goal>& before, const std
     for (std::size_t k = 0; k < before[n].values.size(); ++k)
       error.change.push_back(after[n].values[k] - before[n].values[k]);
     const double length = goal_length(error.change);
-    const double scale = std::max(goal_length(after[n].values), before[n].least);
-    if (length > 0.0 && scale > 0.0) error.relative = length / scale;
+    if (length > 0.0) error.relative = length / std::max(goal_length(after[n].values), before[n].least);
   }
   return errors;
 }

@@ -28,7 +28,8 @@ inline constexpr int largest_goal_system = 20000;
 
 struct GoalError {
   std::vector<double> change;  ///< of the goal's values by the next two orders
-  double relative = 0.0;       ///< length of the change over that of the changed values, or over Goal::least
+  double relative = 0.0;  ///< length of the change over that of the changed values, or over Goal::least if
+                          ///< that is larger; infinite if both are 0
 };
 
 /// After an equilibrium of a static analysis. @return by goal; empty without goals, for incremental blocks, for a system

@@ -211,7 +211,7 @@ class PilotRecord {
   PilotRecord(const Simulation& simulation, const GoalValues& goals)
       : simulation_(simulation), goals_(goals), start_(simulation.states()) {
     run_.round.energies.assign(start_.size(), 0.0);
-    run_.round.lacks.assign(start_.size(), -1.0);
+    run_.round.lacks = unknown_lacks(simulation);
     note_values();
   }
 

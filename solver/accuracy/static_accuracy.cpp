@@ -38,7 +38,7 @@ AccuracyRound round_of(const Simulation& simulation, const std::vector<Goal>& go
   for (const Goal& goal : goals) round.goals.push_back(goal.values);
   const std::size_t count = simulation.blocks().size();
   round.energies.assign(count, 0.0);
-  round.lacks.assign(count, -1.0);
+  round.lacks = unknown_lacks(simulation);
   for (std::size_t k = 0; k < count; ++k) {
     const BlockModel& block = simulation.blocks()[k];
     if (simulation.system().moving()[k] && !block.rigid())
@@ -70,9 +70,7 @@ double relative_to(double error, const Goal& goal) {
 
 /// True if all moving blocks that deform are estimated.
 bool is_whole(const AccuracyRound& round) {
-  for (std::size_t k = 0; k < round.lacks.size(); ++k)
-    if (round.lacks[k] < 0.0 && round.energies[k] > 0.0) return false;
-  return true;
+  return std::none_of(round.lacks.begin(), round.lacks.end(), [](double lack) { return lack < 0.0; });
 }
 
 /// Rounds from the first one on in which a block deforms: supports may leave no motion to low orders, and nothing changes.
@@ -85,10 +83,8 @@ std::span<const AccuracyRound> deforming(std::span<const AccuracyRound> rounds) 
 /// Error of a goal by the orders of blocks. If all blocks are estimated, it is not larger than the error in the norm of
 /// the energy; after two rounds nothing else is known, as the second may have changed nothing by chance.
 double order_error_of(const std::vector<AccuracyRound>& all, std::size_t index, const Goal& goal) {
-  const bool lacks_energy = sum_of_lacks(all.back()) > 0.0;
-  const std::span<const AccuracyRound> rounds = lacks_energy ? deforming(all) : std::span(all);
-  if (rounds.empty()) return std::sqrt(error_of_energy(all.back()));
-  const double in_norm = is_whole(rounds.back()) ? std::sqrt(error_of_energy(rounds.back())) : no_estimate;
+  const std::span<const AccuracyRound> rounds = deforming(all);
+  const double in_norm = is_whole(all.back()) ? std::sqrt(error_of_energy(all.back())) : no_estimate;
   return rounds.size() > 2 ? std::min(in_norm, relative_to(distance_to_limit(rounds, index), goal)) : in_norm;
 }
 
@@ -234,6 +230,13 @@ int slow_block_of(const std::vector<AccuracyRound>& rounds) {
 }
 
 }  // namespace
+
+std::vector<double> unknown_lacks(const Simulation& simulation) {
+  std::vector<double> lacks;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
+    lacks.push_back(simulation.system().moving()[k] && !simulation.blocks()[k].rigid() ? -1.0 : 0.0);
+  return lacks;
+}
 
 bool raise_orders(Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
                   AccuracyRounds& rounds) {

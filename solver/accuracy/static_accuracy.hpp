@@ -44,6 +44,9 @@ struct AccuracyRound {
   std::vector<double> lacks;               ///< J by block, as OrderError; negative: not estimated
 };
 
+/// Lacks before any estimate: unknown of moving blocks that deform, 0 of others.
+[[nodiscard]] std::vector<double> unknown_lacks(const Simulation& simulation);
+
 /// All rounds so far.
 struct AccuracyRounds {
   std::vector<AccuracyRound> orders;     ///< with different orders

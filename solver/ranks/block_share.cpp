@@ -1,28 +1,12 @@
 #include "solver/ranks/block_share.hpp"
 
-#include <cstring>
-#include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "geometry/index.hpp"
 
 namespace ashlar {
-namespace {
-
-Bytes as_message(std::string_view text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
-std::string_view text_of(const Bytes& message) {
-  return {reinterpret_cast<const char*>(message.data()), message.size()};
-}
-
-}  // namespace
-
 BlockShare::BlockShare(Ranks& ranks, std::vector<int> owners, std::unique_ptr<RankSolver> solver)
     : ranks_(ranks),
       solver_(solver ? std::move(solver) : make_gathered_solver(ranks)),
@@ -48,13 +32,13 @@ void BlockShare::set_ghosts(std::vector<int> ghosts) {
   for (const std::vector<int>& blocks : asked) {
     ByteWriter writer;
     if (!blocks.empty()) writer(blocks);
-    messages.push_back(as_message(writer.take()));
+    messages.push_back(message_of(writer));
   }
   const std::vector<Bytes> received = ranks_.exchange(std::move(messages));
   for (std::size_t rank = 0; rank < lent_.size(); ++rank) {
     lent_[rank].clear();
     if (received[rank].empty()) continue;
-    ByteReader reader(text_of(received[rank]));
+    ByteReader reader(text_of_message(received[rank]));
     reader(lent_[rank]);
   }
 }
@@ -65,12 +49,12 @@ void BlockShare::exchange(const std::function<void(ByteWriter&, int)>& write,
   for (int rank = 0; rank < ranks_.count(); ++rank) {
     ByteWriter writer;
     if (rank != ranks_.own()) write(writer, rank);
-    messages.push_back(as_message(writer.take()));
+    messages.push_back(message_of(writer));
   }
   const std::vector<Bytes> received = ranks_.exchange(std::move(messages));
   for (int rank = 0; rank < ranks_.count(); ++rank) {
     if (received[at(rank)].empty()) continue;
-    ByteReader reader(text_of(received[at(rank)]));
+    ByteReader reader(text_of_message(received[at(rank)]));
     read(reader, rank);
   }
 }

@@ -8,15 +8,12 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
-#include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "solver/byte_archive.hpp"
 #include "solver/ranks/placed_volume.hpp"
+#include "solver/ranks/rank_messages.hpp"
 #include "solver/ranks/rank_solver.hpp"
-#include "solver/ranks/ranks.hpp"
 
 namespace ashlar {
 
@@ -52,7 +49,7 @@ class BlockShare {
   void exchange(const std::function<void(ByteWriter& writer, int rank)>& write,
                 const std::function<void(ByteReader& reader, int rank)>& read) const;
 
-  /// @name What all ranks know of the undeformed blocks (share_blocks in step/ghosts.hpp)
+  /// @name Places of all undeformed blocks, which all ranks know (share_blocks in step/ghosts.hpp)
   /// @{
   void set_places(std::vector<PlacedVolume> places, const Eigen::Matrix3d& axes) {
     places_ = std::move(places);
@@ -74,20 +71,5 @@ class BlockShare {
   std::vector<PlacedVolume> places_;
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();
 };
-
-/// A value of each rank, by rank. Collective.
-template <class Value>
-[[nodiscard]] std::vector<Value> values_of_ranks(Ranks& ranks, const Value& value) {
-  ByteWriter writer;
-  writer(value);
-  const std::string text = writer.take();
-  const auto bytes = std::as_bytes(std::span(text));
-  std::vector<Value> values;
-  for (const Bytes& given : ranks.gather(Bytes(bytes.begin(), bytes.end()))) {
-    ByteReader reader({reinterpret_cast<const char*>(given.data()), given.size()});
-    reader(values.emplace_back());
-  }
-  return values;
-}
 
 }  // namespace ashlar

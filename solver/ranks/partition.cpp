@@ -14,7 +14,7 @@
 namespace ashlar {
 namespace {
 
-/// What ranks tell each other of a block.
+/// A block in a message between ranks.
 struct PlacedWeight {
   int block;
   double weight;

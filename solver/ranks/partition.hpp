@@ -1,7 +1,6 @@
 // Shares blocks out among ranks: each gets about the same work, with few contacts between ranks.
 //
-// Here: recursive bisection of the centroids, for the first partition, before contacts are known, and for builds without
-// MPI. By contacts: mpi/contact_partition.hpp. Both are functions of the blocks alone: the present ranks of the blocks
+// Here: recursive bisection of the centroids, for blocks without neighbours and for builds without MPI. By contacts: mpi/contact_partition.hpp. Both are functions of the blocks alone: the present ranks of the blocks
 // change neither which are together nor, but for the names of the parts (with_names_of), their owners.
 #pragma once
 
@@ -50,8 +49,5 @@ using Partition =
 /// @param owners rank by block, -1: none
 [[nodiscard]] double imbalance_of(const std::vector<int>& owners, const std::vector<double>& weights,
                                   int ranks);
-
-/// Imbalance beyond which blocks are shared out again.
-inline constexpr double allowed_imbalance = 0.2;
 
 }  // namespace ashlar

@@ -2,34 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "solver/ranks/rank_values.hpp"
+
 namespace ashlar {
-namespace {
-
-Bytes bytes_of(const std::vector<double>& values) {
-  Bytes bytes(values.size() * sizeof(double));
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-  return bytes;
-}
-
-std::vector<double> doubles_of(const Bytes& bytes) {
-  std::vector<double> values(bytes.size() / sizeof(double));
-  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-  return values;
-}
-
-}  // namespace
-
 std::vector<double> sum_of_ranks(Ranks& ranks, const std::vector<double>& values) {
   std::vector<double> sum(values.size(), 0.0);
-  for (const Bytes& given : ranks.gather(bytes_of(values))) {
-    const std::vector<double> part = doubles_of(given);
+  for (const Bytes& given : ranks.gather(bytes_of_values<double>(values))) {
+    const std::vector<double> part = values_of_bytes<double>(given);
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += part[k];
   }
   return sum;
@@ -41,8 +26,8 @@ double sum_of_ranks(Ranks& ranks, double value) {
 
 std::vector<double> max_of_ranks(Ranks& ranks, const std::vector<double>& values) {
   std::vector<double> most(values.size(), -std::numeric_limits<double>::infinity());
-  for (const Bytes& given : ranks.gather(bytes_of(values))) {
-    const std::vector<double> part = doubles_of(given);
+  for (const Bytes& given : ranks.gather(bytes_of_values<double>(values))) {
+    const std::vector<double> part = values_of_bytes<double>(given);
     for (std::size_t k = 0; k < most.size(); ++k)
       most[k] = std::isnan(part[k]) ? std::numeric_limits<double>::infinity() : std::max(most[k], part[k]);
   }

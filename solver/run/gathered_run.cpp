@@ -1,8 +1,7 @@
 #include "solver/run/gathered_run.hpp"
 
 #include <algorithm>
-#include <span>
-#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -11,41 +10,22 @@
 namespace ashlar {
 namespace {
 
-SimulationCounts& operator+=(SimulationCounts& sum, const SimulationCounts& one) {
-  FinderCounts& finder = sum.finder;
-  finder.block_pairs_tested += one.finder.block_pairs_tested;
-  finder.convex_pairs += one.finder.convex_pairs;
-  finder.block_pairs_skipped += one.finder.block_pairs_skipped;
-  finder.block_pairs_kept += one.finder.block_pairs_kept;
-  finder.block_pairs_far += one.finder.block_pairs_far;
-  finder.motions_checked += one.finder.motions_checked;
-  finder.divisions += one.finder.divisions;
-  finder.divisions_at_limit += one.finder.divisions_at_limit;
-  finder.predicates.filter += one.finder.predicates.filter;
-  finder.predicates.exact += one.finder.predicates.exact;
-  sum.contact_points += one.contact_points;
-  sum.open_close_iterations += one.open_close_iterations;
-  sum.open_close_fallbacks += one.open_close_fallbacks;
-  sum.passing_contacts += one.passing_contacts;
-  // All ranks count islands that sleep.
-  sum.islands_put_to_sleep = one.islands_put_to_sleep;
-  sum.sleeping_block_steps += one.sleeping_block_steps;
-  sum.factors += one.factors;
-  return sum;
+/// Adds all numbers of a struct.
+template <class Struct>
+void add_all(const Struct& one, Struct& sum) {
+  if constexpr (std::is_arithmetic_v<Struct>) {
+    sum += one;
+  } else {
+    with_members(sum, [&one](auto&... of_sum) {
+      with_members(one, [&](const auto&... of_one) { (add_all(of_one, of_sum), ...); });
+    });
+  }
 }
 
-void add(const Ledger& one, Ledger& sum) {
-  sum.kinetic += one.kinetic;
-  sum.elastic += one.elastic;
-  sum.gravity += one.gravity;
-  sum.contact += one.contact;
-  sum.friction += one.friction;
-  sum.damping += one.damping;
-  sum.applied += one.applied;
-  sum.numerical += one.numerical;
-  sum.redetection_gained += one.redetection_gained;
-  sum.redetection_lost += one.redetection_lost;
-  sum.residual += one.residual;
+void add(const SimulationCounts& one, SimulationCounts& sum) {
+  add_all(one, sum);
+  // All ranks count islands that sleep.
+  sum.islands_put_to_sleep = one.islands_put_to_sleep;
 }
 
 void add(const StepReport& one, StepReport& sum) {
@@ -61,10 +41,8 @@ void add(const StepReport& one, StepReport& sum) {
 void add(const ContactExtremes& one, ContactExtremes& sum) {
   sum.penetration = std::max(sum.penetration, one.penetration);
   if (one.deepest.depth > sum.deepest.depth) sum.deepest = one.deepest;
-  sum.sliding_friction.due += one.sliding_friction.due;
-  sum.sliding_friction.acted += one.sliding_friction.acted;
-  sum.dilating_slip.all += one.dilating_slip.all;
-  sum.dilating_slip.in_flight += one.dilating_slip.in_flight;
+  add_all(one.sliding_friction, sum.sliding_friction);
+  add_all(one.dilating_slip, sum.dilating_slip);
 }
 
 RunTotals totals_here(const Simulation& simulation) {
@@ -78,26 +56,6 @@ RunTotals totals_here(const Simulation& simulation) {
           simulation.unknowns()};
 }
 
-/// Values of own blocks or pairs, on rank 0. @param write (archive). @param read (archive), once for each other rank
-template <class Write, class Read>
-void send_to_first(Ranks& ranks, const Write& write, const Read& read) {
-  std::vector<Bytes> messages(at(ranks.count()));
-  if (ranks.own() != 0) {
-    ByteWriter writer;
-    write(writer);
-    const std::string text = writer.take();
-    const auto bytes = std::as_bytes(std::span(text));
-    messages[0].assign(bytes.begin(), bytes.end());
-  }
-  const std::vector<Bytes> received = ranks.exchange(std::move(messages));
-  if (ranks.own() != 0) return;
-  for (const Bytes& message : received) {
-    if (message.empty()) continue;
-    ByteReader reader({reinterpret_cast<const char*>(message.data()), message.size()});
-    read(reader);
-  }
-}
-
 }  // namespace
 
 RunTotals totals_of_run(const Simulation& simulation) {
@@ -106,12 +64,12 @@ RunTotals totals_of_run(const Simulation& simulation) {
   if (share == nullptr) return here;
   RunTotals sum;
   for (const RunTotals& one : values_of_ranks(share->ranks(), here)) {
-    add(one.ledger, sum.ledger);
+    add_all(one.ledger, sum.ledger);
     add(one.report, sum.report);
     add(one.extremes, sum.extremes);
     sum.momentum += one.momentum;
     sum.angular_momentum += one.angular_momentum;
-    sum.counts += one.counts;
+    add(one.counts, sum.counts);
     sum.unknowns += one.unknowns;
   }
   return sum;
@@ -126,7 +84,7 @@ std::vector<BlockState> states_of_run(const Simulation& simulation) {
       [&](ByteWriter& writer) {
         for (const int block : share->own()) writer(block, simulation.states()[at(block)]);
       },
-      [&](ByteReader& reader) {
+      [&](ByteReader& reader, int) {
         while (!reader.at_end()) {
           int block = -1;
           reader(block);
@@ -147,7 +105,7 @@ std::vector<PairRecord> contacts_of_run(const Simulation& simulation) {
   std::vector<PairRecord> all = ranks.own() == 0 ? own : std::vector<PairRecord>();
   send_to_first(
       ranks, [&](ByteWriter& writer) { writer(own); },
-      [&](ByteReader& reader) {
+      [&](ByteReader& reader, int) {
         std::vector<PairRecord> others;
         reader(others);
         for (PairRecord& record : others) all.push_back(std::move(record));
@@ -169,7 +127,7 @@ std::vector<PairBonds> bonds_of_run(const Simulation& simulation) {
   std::vector<PairBonds> all = ranks.own() == 0 ? own : std::vector<PairBonds>();
   send_to_first(
       ranks, [&](ByteWriter& writer) { writer(own); },
-      [&](ByteReader& reader) {
+      [&](ByteReader& reader, int) {
         std::vector<PairBonds> others;
         reader(others);
         all.insert(all.end(), others.begin(), others.end());

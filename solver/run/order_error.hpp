@@ -10,10 +10,9 @@
 // Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
 // the contacts and errors of their forces are not in it.
 //
-// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order or whose shape allows no higher one,
-// and those with ties, bolts
-// or quiet faces, whose forces are not recorded, with supports that move, or with initial stress, whose energy is not
-// that of their deformation.
+// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order or whose shape allows no higher
+// one, and those with ties, bolts or quiet faces, whose forces are not recorded, with supports that move, or with
+// initial stress, whose energy is not that of their deformation.
 #pragma once
 
 #include <optional>

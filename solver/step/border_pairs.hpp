@@ -14,7 +14,7 @@
 
 namespace ashlar {
 
-/// What a contact pair is made from, besides its blocks.
+/// Data that a contact pair is made from, besides its blocks.
 struct PairRecipe {
   PairKey blocks = {-1, -1};
   JointLaw law;

@@ -50,7 +50,7 @@ struct LargestFace {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-/// What all ranks know of the undeformed blocks.
+/// Tells all ranks the places of all undeformed blocks.
 void exchange_places(BlockShare& share, const std::vector<BlockModel>& blocks) {
   constexpr double rounding = 1e-9;  // as ContactFinder
   std::vector<PlacedVolume> own;

@@ -86,8 +86,8 @@ class OpenClose {
 
   /// Updates rows of contact points to where they act. @return true if any has changed
   bool follow() {
-    followed_ = !problem_.scheme().is_static() && problem_.follow_contacts(settings_.followed_gap());
-    return followed_ = problem_.ranks().any(followed_);
+    const bool here = !problem_.scheme().is_static() && problem_.follow_contacts(settings_.followed_gap());
+    return followed_ = problem_.ranks().any(here);
   }
 
   /// Residual of the present guess, evaluated unless it is known.

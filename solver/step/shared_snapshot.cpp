@@ -1,15 +1,12 @@
 #include "solver/step/shared_snapshot.hpp"
 
 #include <algorithm>
-#include <span>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
-#include "solver/byte_archive.hpp"
 
 namespace ashlar {
 namespace {
@@ -36,19 +33,6 @@ void keep_own_pairs(const BlockSystem& system, RunState& run) {
   std::erase_if(run.pairs,
                 [&](const auto& entry) { return !system.owns_pair(entry.first[0], entry.first[1]); });
   std::erase_if(run.records, [&](const PairRecord& record) { return !system.owns_pair(record.a, record.b); });
-}
-
-/// @return on the first rank the snapshots of the others, by rank; its own entry and those of other ranks are empty
-std::vector<Bytes> parts_on_first(Ranks& ranks, const SimulationSnapshot& part) {
-  std::vector<Bytes> messages(at(ranks.count()));
-  if (ranks.own() > 0) {
-    ByteWriter writer;
-    writer(part);
-    const std::string text = writer.take();
-    const auto bytes = std::as_bytes(std::span(text));
-    messages[0].assign(bytes.begin(), bytes.end());
-  }
-  return ranks.exchange(std::move(messages));
 }
 
 void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
@@ -100,22 +84,19 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
   const BlockShare& share = *system.share();
   keep_own_pairs(system, part.run);
   part.factors.clear();
-  const std::vector<double> balances = values_of_ranks(share.ranks(), part.run.ledger.start_balance());
-  const std::vector<Bytes> others = parts_on_first(share.ranks(), part);
+  const double balance = sum_of_ranks(share.ranks(), part.run.ledger.start_balance());
+  send_to_first(
+      share.ranks(), [&](ByteWriter& writer) { writer(part); },
+      [&](ByteReader& reader, int rank) {
+        SimulationSnapshot other;
+        reader(other);
+        merge_part(share, rank, std::move(other), part);
+      });
   if (share.ranks().own() > 0) return part;
   if (totals == nullptr) throw std::logic_error("results are gathered before a snapshot of several ranks");
-  for (int rank = 1; rank < share.ranks().count(); ++rank) {
-    const Bytes& bytes = others[at(rank)];
-    ByteReader reader({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    SimulationSnapshot other;
-    reader(other);
-    merge_part(share, rank, std::move(other), part);
-  }
   std::sort(part.run.records.begin(), part.run.records.end(), [](const PairRecord& x, const PairRecord& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
   });
-  double balance = 0.0;
-  for (const double of_rank : balances) balance += of_rank;
   part.run.ledger.set(totals->ledger, balance);
   part.run.report = totals->report;
   part.run.extremes = totals->extremes;

@@ -111,7 +111,8 @@ class RanksTest(unittest.TestCase):
     def expect_same_motion(self, name, end_time, ranks):
         """Columns of the history within a millionth of the largest of their measure, of energies within one of the largest
         energy, and 1e-10: the tolerance of the iteration for bricks of a decimetre."""
-        arguments = ["run", self.scene(name), "--set", f"analysis.end_time={end_time}", "--quiet", "--out"]
+        arguments = ["run", self.folder / name if name.endswith(".toml") else self.scene(name), "--set",
+                     f"analysis.end_time={end_time}", "--quiet", "--out"]
         straight = self.folder / "1"
         self.assertEqual(run(0, *arguments, straight)[0], 0)
         expected = table(straight / "history.csv")
@@ -140,6 +141,21 @@ class RanksTest(unittest.TestCase):
 
     def test_falling_stones_move_alike_on_many_ranks(self):
         self.expect_same_motion("falling_block", 0.2, [2])
+
+    def test_drifts_and_cracks_are_those_of_all_blocks(self):
+        (self.folder / "leaning.toml").write_text('''
+analysis = { end_time = 0.05, time_step = 1e-3, gravity = [3, 0, -9.81] }
+contact = { friction_angle = 20 }
+material = [{ name = "brick", density = 2000, young_modulus = 5e7, poisson_ratio = 0.2 }]
+block = [{ name = "ground", fixed = true, box = { min = [-1, -1, -0.2], max = [5, 1, 0] } }]
+masonry = [{ name = "wall", kind = "wall", material = "brick", length = 2, height = 0.6, brick = [0.5, 0.25, 0.15] }]
+measure = [{ name = "storey", drift = { blocks = ["wall.*"], heights = [0.1, 0.5] } },
+           { name = "bed", crack = { joints = ["wall.*"] } }]
+''', encoding="utf-8")
+        self.expect_same_motion("leaning.toml", 0.05, [2, 4])
+
+    def test_more_ranks_than_blocks(self):
+        self.expect_same_motion("falling_block", 0.02, [4])
 
     def test_summary_tells_the_ranks(self):
         out = self.folder / "out"

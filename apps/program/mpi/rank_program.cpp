@@ -13,10 +13,9 @@
 #include "apps/program/program_memory.hpp"
 #include "apps/scene/build/run_ranks.hpp"
 #include "apps/scene/toml/fault_text.hpp"
-#include "geometry/index.hpp"
+#include "solver/ranks/mpi/contact_partition.hpp"
 #include "solver/ranks/mpi/mpi_session.hpp"
 #include "solver/ranks/mpi/petsc_solver.hpp"
-#include "solver/ranks/partition.hpp"
 
 namespace ashlar {
 namespace {
@@ -45,20 +44,6 @@ std::vector<std::string> petsc_options(std::vector<std::string>& arguments) {
   MpiSession::abort(exit_status::failed);
 }
 
-/// Contacts are not known before the first step.
-std::vector<int> owners_by_place(Ranks& ranks, const std::vector<PlacedVolume>& places,
-                                 const std::vector<double>& work) {
-  std::vector<PartitionBlock> own;
-  const int blocks = static_cast<int>(places.size());
-  for (int block = ranks.own(); block < blocks; block += ranks.count()) {
-    PartitionBlock& known = own.emplace_back();
-    known.block = block;
-    known.weight = work[at(block)];
-    known.centroid = places[at(block)].centroid;
-  }
-  return partition_by_place(ranks, own, blocks);
-}
-
 void tell_unused(const std::vector<std::string>& given) {
   for (const std::string& option : MpiSession::unused_options())
     if (std::find(given.begin(), given.end(), option) != given.end())
@@ -71,7 +56,7 @@ int run_as_rank(std::vector<std::string> arguments) {
   const std::vector<std::string> options = petsc_options(arguments);
   MpiSession session(options);
   Ranks& ranks = session.ranks();
-  const RunRanks shared{ranks, owners_by_place, [](Ranks& all) { return make_petsc_solver(all); }};
+  const RunRanks shared{ranks, partition_by_contact, [](Ranks& all) { return make_petsc_solver(all); }};
   Nowhere silence;
   std::ostream nowhere(&silence);
   const bool first = ranks.own() == 0;

@@ -1,4 +1,4 @@
-// What ranks that share a run decide together before it begins.
+// Decisions that ranks that share a run take together before it begins.
 #pragma once
 
 #include <iosfwd>

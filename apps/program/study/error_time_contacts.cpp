@@ -16,16 +16,6 @@ namespace {
 constexpr double not_run = std::numeric_limits<double>::infinity();
 const GoalValues energies_alone = [](const Simulation&) { return std::vector<Goal>(); };
 
-/// A bar along x of 0.1 x 0.1 whose sides and ends move only along x.
-BlockDefinition piece_of_bar(double from, double to, int order) {
-  const Vector3 low(from, 0, 0), high(to, 0.1, 0.1);
-  BlockDefinition block = define_block(Polyhedron(make_box(low, high)), {8000, 200e9, 0.0}, order);
-  for (const Vector3& corner : {low, high})
-    for (int axis = 0; axis < 3; ++axis)
-      block.supports.push_back({Plane{corner, Vector3::Unit(axis)}, {false, true, true}});
-  return block;
-}
-
 }  // namespace
 
 bool runs_to(Simulation& simulation, double time, const ErrorTimeSetting& setting) {
@@ -79,31 +69,13 @@ double rocking_error(const ErrorTimeSetting& setting) {
 double bar_impact_error(const ErrorTimeSetting& setting) {
   constexpr double duration = 4e-4, exact = 80.0;
   constexpr int pieces = 6;
-  ContactScene scene;
-  scene.settings.gravity.setZero();
+  ContactScene scene = meeting_bars(pieces, setting.order);
   scene.settings.integrator = setting.integrator;
   scene.settings.time_step = setting.time_step * duration;
-  scene.settings.contact_distance = 1e-5;
-  scene.settings.search.subdivisions = 0;
-  *scene.law = {1e14, 0.0, 0.0, 0.0, 0.0, true};
-  for (const double side : {-1.0, 1.0}) {
-    for (int k = 0; k < pieces; ++k) {
-      const double from = std::min(side, 0.0) + static_cast<double>(k) / pieces;
-      const int piece = scene.add(piece_of_bar(from, from + 1.0 / pieces, setting.order),
-                                  {{-0.5 * side, 0, 0}, Vector3::Zero()});
-      if (k > 0) scene.tie(piece - 1, piece);
-    }
-  }
   Simulation simulation = scene.build();
-  const auto momentum = [&] {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < pieces; ++k)
-      sum += simulation.blocks()[k].momentum(simulation.states()[k]).x();
-    return sum;
-  };
-  const double before = momentum();
+  const double before = momentum_along_x(simulation, pieces);
   if (!runs_to(simulation, 1.5 * duration, setting)) return not_run;
-  return std::abs((before - momentum()) / exact - 1.0);
+  return std::abs((before - momentum_along_x(simulation, pieces)) / exact - 1.0);
 }
 
 }  // namespace ashlar

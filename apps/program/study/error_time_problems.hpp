@@ -21,15 +21,14 @@ struct ErrorTimeSetting {
 /// @return false if a step cannot be taken
 [[nodiscard]] bool runs_to(Simulation& simulation, double time, const ErrorTimeSetting& setting);
 
-/// Deflection of a square plate clamped at four sides, of a tenth in thickness, under its weight. Mindlin's theory,
-/// w = 0.0015046 q a^4 / D; the solid is 3 % stiffer, as its clamped sides do not warp.
+/// Deflection of clamped_plate() under its weight.
 [[nodiscard]] double plate_error(const ErrorTimeSetting& setting);
 /// Approach of Hertz's sphere (hertz_sphere.hpp), with the order of the outer blocks, one more near the contact and
 /// two more at it; with an accuracy all begin at 1.
 [[nodiscard]] double sphere_error(const ErrorTimeSetting& setting);
 /// Time in which a rigid block that stands on its edge falls back on its base: a quarter of 1.0954 s.
 [[nodiscard]] double rocking_error(const ErrorTimeSetting& setting);
-/// Impulse of the impact of two equal bars of 1 m at 1 m/s, 80 N s; the step is over the duration 2 L / c of contact.
+/// Impulse of the impact of meeting_bars(), 80 N s; the step is over the duration 2 L / c of contact.
 [[nodiscard]] double bar_impact_error(const ErrorTimeSetting& setting);
 
 }  // namespace ashlar

@@ -35,21 +35,12 @@ double error_in_equilibrium(Simulation simulation, const GoalValues& goal, doubl
 }  // namespace
 
 double plate_error(const ErrorTimeSetting& setting) {
-  constexpr double thickness = 0.1;
-  const Material material{2500.0, 1e9, 0.3};
-  BlockDefinition block =
-      define_block(Polyhedron(make_box({0, 0, 0}, {1, 1, thickness})), material, setting.order);
-  for (int axis = 0; axis < 2; ++axis)
-    for (const double side : {0.0, 1.0})
-      block.supports.push_back({Plane{side * Vector3::Unit(axis), Vector3::Unit(axis)}});
   const GoalValues middle = [](const Simulation& now) {
-    const Vector3 way = displacement(now.blocks()[0], now.states()[0].position, {0.5, 0.5, 0.5 * thickness});
+    const Vector3 way = displacement(now.blocks()[0], now.states()[0].position, middle_of_plate);
     return std::vector<Goal>{{"middle", {way.z()}, 1e-12}};
   };
-  const double rigidity = material.young_modulus * thickness * thickness * thickness /
-                          (12.0 * (1.0 - material.poisson_ratio * material.poisson_ratio));
-  return error_in_equilibrium(lone_block(std::move(block), {}, {}), middle,
-                              -0.0015046 * material.density * earth_gravity * thickness / rigidity, setting);
+  return error_in_equilibrium(lone_block(clamped_plate(setting.order), {}, {}), middle, deflection_of_plate(),
+                              setting);
 }
 
 double sphere_error(const ErrorTimeSetting& setting) {

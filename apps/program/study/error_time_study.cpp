@@ -309,7 +309,7 @@ StudyResult study_error_time() {
 
 namespace {
 
-/// Those of error_time_problems.hpp.
+/// Adds the curves of error_time_problems.hpp.
 void add_further_problems(const ErrorTimeStudySize& size, ErrorTimeCurves& curves) {
   curves.start(5, "one block");
   for (int order = 1; order <= std::min(8, 4 * size.steps); ++order) curves.add({order}, plate_error);

@@ -51,6 +51,41 @@ void ContactScene::tie_all() {
   all_tied_ = true;
 }
 
+BlockDefinition bar_along_x(double from, double to, int order) {
+  const Vector3 low(from, 0, 0), high(to, 0.1, 0.1);
+  BlockDefinition block = define_block(Polyhedron(make_box(low, high)), {8000, 200e9, 0.0}, order);
+  for (const Vector3& corner : {low, high}) {
+    for (int axis = 0; axis < 3; ++axis)
+      block.supports.push_back({Plane{corner, Vector3::Unit(axis)}, {false, true, true}});
+  }
+  return block;
+}
+
+ContactScene meeting_bars(int pieces, int order) {
+  ContactScene scene;
+  scene.settings.gravity.setZero();
+  scene.settings.contact_distance = 1e-5;
+  scene.settings.search.subdivisions = 0;
+  // The compression of the bars is F L/(E A) = 1e-4 m, that of the springs between them a five-hundredth of it.
+  *scene.law = {1e14, 0.0, 0.0, 0.0, 0.0, true};
+  for (const double side : {-1.0, 1.0}) {
+    for (int k = 0; k < pieces; ++k) {
+      const double from = std::min(side, 0.0) + static_cast<double>(k) / pieces;
+      const double to = std::min(side, 0.0) + (k + 1.0) / pieces;
+      const int piece = scene.add(bar_along_x(from, to, order), {{-0.5 * side, 0, 0}, Vector3::Zero()});
+      if (k > 0) scene.tie(piece - 1, piece);
+    }
+  }
+  return scene;
+}
+
+double momentum_along_x(const Simulation& simulation, int blocks) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(blocks); ++k)
+    sum += simulation.blocks()[k].momentum(simulation.states()[k]).x();
+  return sum;
+}
+
 void choose_as_for_statics(ContactScene& scene, double size, double young_modulus, double friction) {
   const AutomaticRatios ratios;
   scene.settings.augmented = true;

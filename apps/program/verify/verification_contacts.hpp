@@ -43,6 +43,18 @@ class ContactScene {
   Placement placement_;
 };
 
+/// A bar along x of 0.1 x 0.1, of steel without lateral strain, whose sides and ends move only along x. @param from,to m
+[[nodiscard]] BlockDefinition bar_along_x(double from, double to, int order);
+
+/// Two equal bars of 1 m that meet at x = 0 at 1 m/s, without gravity. A wave of stress rho c v/2 runs through each at
+/// c = sqrt(E/rho) and returns as release after 2 L/c = 4e-4 s. Until then the contact force is F = A rho c v/2, and they
+/// exchange their velocities. A bar is a chain of tied pieces, so that the wave front can be resolved: the first pieces
+/// are the left one. @param pieces of each bar
+[[nodiscard]] ContactScene meeting_bars(int pieces, int order);
+
+/// Momentum along x of the first blocks, kg m/s.
+[[nodiscard]] double momentum_along_x(const Simulation& simulation, int blocks);
+
 /// Applies the automatic settings of scenes in statics: contact by multipliers.
 /// @param size of the smallest block, m; @param young_modulus Pa; @param friction tan(phi)
 void choose_as_for_statics(ContactScene& scene, double size, double young_modulus, double friction);

@@ -54,47 +54,15 @@ std::vector<VerificationCheck> bounce(const Placement& placement) {
   return checks;
 }
 
-/// A bar along x of 0.1 x 0.1 whose sides and ends move only along x.
-BlockDefinition bar(double from, double to, int order) {
-  const Vector3 low(from, 0, 0), high(to, 0.1, 0.1);
-  BlockDefinition block = define_block(Polyhedron(make_box(low, high)), {8000, 200e9, 0.0}, order);
-  for (const Vector3& corner : {low, high}) {
-    for (int axis = 0; axis < 3; ++axis)
-      block.supports.push_back({Plane{corner, Vector3::Unit(axis)}, {false, true, true}});
-  }
-  return block;
-}
-
-/// Impact of two equal bars at 1 m/s. A wave of stress rho c v/2 runs through each of them at c = sqrt(E/rho) and
-/// returns as release after 2 L/c. Until then the contact force is F = A rho c v/2, and they exchange their
-/// velocities. A bar is a chain of short blocks, so that the wave front can be resolved.
+/// Impact of two equal bars (meeting_bars).
 std::vector<VerificationCheck> bar_impact() {
   constexpr double duration = 4e-4, force = 2e5, impulse = 80.0;
   constexpr int pieces = 12, steps = 400;
-  ContactScene scene;
-  scene.settings.gravity.setZero();
+  ContactScene scene = meeting_bars(pieces, 3);
   scene.settings.integrator = Integrator::generalized_alpha;
   scene.settings.time_step = duration / steps;
-  scene.settings.contact_distance = 1e-5;
-  scene.settings.search.subdivisions = 0;
-  // The compression of the bars is F L/(E A) = 1e-4 m, that of the springs between them a five-hundredth of it.
-  *scene.law = {1e14, 0.0, 0.0, 0.0, 0.0, true};
-  for (const double side : {-1.0, 1.0}) {
-    for (int k = 0; k < pieces; ++k) {
-      const double from = std::min(side, 0.0) + static_cast<double>(k) / pieces;
-      const double to = std::min(side, 0.0) + (k + 1.0) / pieces;
-      const int piece = scene.add(bar(from, to, 3), {{-0.5 * side, 0, 0}, Vector3::Zero()});
-      if (k > 0) scene.tie(piece - 1, piece);
-    }
-  }
   Simulation simulation = scene.build();
-  const auto momentum = [&] {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < pieces; ++k)
-      sum += simulation.blocks()[k].momentum(simulation.states()[k]).x();
-    return sum;
-  };
-  const double before = momentum();
+  const double before = momentum_along_x(simulation, pieces);
   double first = -1.0, last = 0.0, mean = 0.0;
   while (!simulation.reached(1.5 * duration)) {
     take_step(simulation, 1.5 * duration);
@@ -108,7 +76,7 @@ std::vector<VerificationCheck> bar_impact() {
   }
   return {check_relative("force, mean of the middle half, N", mean, force, 0.01),
           check_relative("duration, s", last - first, duration, 0.05),
-          check_relative("impulse, N s", before - momentum(), impulse, 0.01),
+          check_relative("impulse, N s", before - momentum_along_x(simulation, pieces), impulse, 0.01),
           check_energy("residual of a step or gain of contacts over largest energy", simulation)};
 }
 
@@ -143,7 +111,7 @@ std::vector<VerificationCheck> joint_wave() {
   scene.settings.time_step = period / 50.0;
   scene.settings.search.subdivisions = 0;
   *scene.law = {kn, kn, 0.0, 1e9, 1e9, true};
-  BlockDefinition left = bar(0, length, 7);
+  BlockDefinition left = bar_along_x(0, length, 7);
   Load shake{Plane{{0, 0, 0}, Vector3::UnitX()}, true, {p, 0, 0}, {}};
   for (int k = 0; k <= 800; ++k) {
     const double time = k * period / 200.0;
@@ -154,7 +122,7 @@ std::vector<VerificationCheck> joint_wave() {
   }
   left.loads.push_back(std::move(shake));
   scene.add(std::move(left));
-  scene.add(bar(length, 2.0 * length, 7));
+  scene.add(bar_along_x(length, 2.0 * length, 7));
   Simulation simulation = scene.build();
   // From stress and velocity: s - z v travels to the right, s + z v to the left, each halved.
   const auto wave = [&](std::size_t block, double x, double direction) {

@@ -18,9 +18,9 @@ struct FramePrecision {
   StoredReal places = StoredReal::float64;
 };
 
-/// @return with "single", and with "auto" in results.vtkhdf, fields of single precision; places too if that moves none of the blocks' corners by more than
-/// 1e-4 of the size of the smallest block (block_size), and none is incremental: their shape is not that of the start
-/// if the run goes on from a checkpoint.
+/// @return with "single", and with "auto" in results.vtkhdf, fields of single precision; places too if that moves none of
+/// the blocks' corners by more than 1e-4 of the size of the smallest block (block_size), and none is incremental: their
+/// shape is not that of the start if the run goes on from a checkpoint.
 [[nodiscard]] FramePrecision frame_precision(const SceneOutput& output,
                                              const std::vector<BlockModel>& blocks);
 

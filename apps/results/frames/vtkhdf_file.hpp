@@ -71,7 +71,8 @@ class VtkhdfReader {
 
   [[nodiscard]] const std::vector<FrameTime>& frames() const { return frames_; }
   [[nodiscard]] bool has(const std::string& series) const;
-  /// The grid as it was appended, rounded where it is stored so, otherwise bit for bit, with time and block names, without names of components. At most 16 MiB
+  /// The grid as it was appended, rounded where it is stored so, otherwise bit for bit, with time and block names, without
+  /// names of components. At most 16 MiB
   /// and 256 bytes for each byte of the file are allocated.
   [[nodiscard]] UnstructuredGrid read(const std::string& series, std::size_t frame) const;
 

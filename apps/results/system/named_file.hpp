@@ -1,4 +1,4 @@
-// What a name refers to: the file or folder itself, not the target of a link.
+// Kind, size and identity of a file or folder by its name: of a link itself, not of its target.
 #pragma once
 
 #include <cstdint>

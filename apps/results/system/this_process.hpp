@@ -1,4 +1,4 @@
-// What the system knows of this process, and its standard streams.
+// Numbers of this process as the system has them, and its standard streams.
 #pragma once
 
 #include <cstdint>

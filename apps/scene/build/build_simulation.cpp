@@ -30,6 +30,7 @@
 
 namespace ashlar {
 namespace {
+
 template <class Where>
 BlockPlace place_of(const Where& where) {
   if (const auto* plane = std::get_if<ScenePlane>(&where)) return Plane{plane->point, plane->normal};

@@ -3,22 +3,50 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
+namespace {
+
+/// The blocks that a rank tells a partition of: every count-th. Blocks whose boxes are within a distance count as
+/// neighbours with a point at each corner of a common rectangle; contacts are not known before the first step.
+std::vector<PartitionBlock> blocks_to_share(const std::vector<BlockModel>& blocks, double distance,
+                                            const Ranks& ranks) {
+  constexpr int points = 4;
+  std::vector<Box> boxes;
+  boxes.reserve(blocks.size());
+  for (const BlockModel& block : blocks)
+    boxes.push_back(box_of(block.solid().mesh().points).grown(0.5 * distance));
+  std::vector<std::vector<int>> neighbours(blocks.size());
+  for (const auto& [a, b] : meeting_boxes(boxes)) {
+    if (blocks[at(a)].fixed() || blocks[at(b)].fixed()) continue;
+    neighbours[at(a)].push_back(b);
+    neighbours[at(b)].push_back(a);
+  }
+  std::vector<PartitionBlock> own;
+  for (int k = ranks.own(); k < static_cast<int>(blocks.size()); k += ranks.count()) {
+    PartitionBlock& block = own.emplace_back();
+    block.block = k;
+    block.neighbours = std::move(neighbours[at(k)]);
+    block.points.assign(block.neighbours.size(), points);
+    block.weight = std::max(
+        1.0, weight_of_block(blocks[at(k)].freedom(), points * static_cast<int>(block.points.size())));
+    block.centroid = blocks[at(k)].basis().centroid();
+  }
+  return own;
+}
+
+}  // namespace
 
 Simulation simulation_of(const RunRanks* shared, SimulationParts parts, const BlockLoader& load) {
   if (shared == nullptr || !shared->several())
     return {std::move(parts.blocks), parts.motions, std::move(parts.law),
             parts.settings,          parts.ties,    std::move(parts.absent)};
   const RunRanks& ranks = *shared;
-  std::vector<PlacedVolume> places;
-  std::vector<double> work;
-  for (const BlockModel& block : parts.blocks) {
-    places.push_back({block.basis().centroid(), block.basis().volume()});
-    work.push_back(std::max(1.0, static_cast<double>(block.freedom())));
-  }
-  std::vector<int> owners = ranks.owners(ranks.ranks, places, work);
+  const auto count = static_cast<int>(parts.blocks.size());
+  std::vector<int> owners = ranks.partition(
+      ranks.ranks, blocks_to_share(parts.blocks, parts.settings.contact_distance, ranks.ranks), count);
   // Blocks near at the start have been made; later ones are made again.
   const auto made = std::make_shared<std::vector<BlockModel>>(std::move(parts.blocks));
   const BlockLoader made_or_loaded = [made, load](int block) {

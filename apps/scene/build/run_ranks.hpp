@@ -5,17 +5,14 @@
 #include <memory>
 #include <vector>
 
+#include "solver/ranks/partition.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {
 
 struct RunRanks {
   Ranks& ranks;
-  /// Rank of each block, the same on all ranks. Collective. @param places of all blocks
-  /// @param work of each block in a step, > 0
-  std::function<std::vector<int>(Ranks& ranks, const std::vector<PlacedVolume>& places,
-                                 const std::vector<double>& work)>
-      owners;
+  Partition partition = partition_by_place;
   /// Solver of systems that ranks share; empty: make_gathered_solver()
   std::function<std::unique_ptr<RankSolver>(Ranks& ranks)> solver = {};
 
@@ -24,7 +21,7 @@ struct RunRanks {
   [[nodiscard]] bool first() const { return ranks.own() == 0; }
 };
 
-/// What a simulation of a scene is built from.
+/// Arguments of a Simulation.
 struct SimulationParts {
   std::vector<BlockModel> blocks;  ///< all
   std::vector<InitialMotion> motions;

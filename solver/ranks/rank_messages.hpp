@@ -1,0 +1,58 @@
+// Values of any kind (byte_archive.hpp) in the messages of ranks. Plain ones: rank_values.hpp.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "geometry/index.hpp"
+#include "solver/byte_archive.hpp"
+#include "solver/ranks/rank_values.hpp"
+#include "solver/ranks/ranks.hpp"
+
+namespace ashlar {
+
+[[nodiscard]] inline Bytes message_of(ByteWriter& writer) {
+  return bytes_of_values<char>(writer.take());
+}
+
+/// @param message must outlive the text
+[[nodiscard]] inline std::string_view text_of_message(const Bytes& message) {
+  return {reinterpret_cast<const char*>(message.data()), message.size()};
+}
+
+/// A value of each rank, by rank. Collective.
+template <class Value>
+[[nodiscard]] std::vector<Value> values_of_ranks(Ranks& ranks, const Value& value) {
+  ByteWriter writer;
+  writer(value);
+  std::vector<Value> values;
+  for (const Bytes& given : ranks.gather(message_of(writer))) {
+    ByteReader reader(text_of_message(given));
+    reader(values.emplace_back());
+  }
+  return values;
+}
+
+/// Sends values of all other ranks to the first one. Collective. @param write (archive), not on the first rank
+/// @param read (archive, rank), on the first one, once for each other rank, of messages that are not empty
+template <class Write, class Read>
+void send_to_first(Ranks& ranks, const Write& write, const Read& read) {
+  std::vector<Bytes> messages(at(ranks.count()));
+  if (ranks.own() > 0) {
+    ByteWriter writer;
+    write(writer);
+    messages[0] = message_of(writer);
+  }
+  const std::vector<Bytes> received = ranks.exchange(std::move(messages));
+  if (ranks.own() > 0) return;
+  for (int rank = 1; rank < ranks.count(); ++rank) {
+    if (received[at(rank)].empty()) continue;
+    ByteReader reader(text_of_message(received[at(rank)]));
+    read(reader, rank);
+  }
+}
+
+}  // namespace ashlar
