@@ -110,7 +110,8 @@ class RanksTest(unittest.TestCase):
 
     def expect_same_motion(self, name, end_time, ranks):
         """Columns of the history within a millionth of the largest of their measure, of energies within one of the largest
-        energy, and 1e-10: the tolerance of the iteration for bricks of a decimetre."""
+        energy, and 1e-10: the tolerance of the iteration for bricks of a decimetre. Numbers of contact points by state
+        jump by one where a force is at its limit to rounding: of a thousand points, one may be in another state."""
         arguments = ["run", self.folder / name if name.endswith(".toml") else self.scene(name), "--set",
                      f"analysis.end_time={end_time}", "--quiet", "--out"]
         straight = self.folder / "1"
@@ -131,8 +132,10 @@ class RanksTest(unittest.TestCase):
                 if column.startswith(("iterations", "open_close", "residual")):
                     continue
                 for a, b in zip(expected, found):
-                    self.assertLessEqual(abs(a[column] - b[column]), 1e-6 * scale[kind[column]] + 1e-10,
-                                         f"{column} on {count} ranks")
+                    allowed = 1e-6 * scale[kind[column]] + 1e-10
+                    if kind[column] == "contacts":
+                        allowed = 1e-3 * scale[kind[column]]
+                    self.assertLessEqual(abs(a[column] - b[column]), allowed, f"{column} on {count} ranks")
             frames = sorted(path.name for path in straight.glob("frames/*"))
             self.assertEqual(sorted(path.name for path in out.glob("frames/*")), frames)
 
