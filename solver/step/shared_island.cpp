@@ -96,7 +96,8 @@ class SharedIslandSolver final : public LinearSolver {
     }
     std::vector<BodyRows> rows;
     for (std::size_t k = 0; k < blocks.size(); ++k) {
-      if (!ranks_.owns_body(k)) continue;
+      // Moving supports may leave a body no unknowns.
+      if (!ranks_.owns_body(k) || starts_[k] == starts_[k + 1]) continue;
       BodyRows& of_body = rows.emplace_back();
       of_body.body = island_.bodies[k];
       for (auto& [column, values] : blocks[k]) {

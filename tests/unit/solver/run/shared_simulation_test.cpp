@@ -173,6 +173,30 @@ TEST(SharedSimulation, AWallStandsAlikeOnAnyNumberOfRanks) {
   }
 }
 
+TEST(SharedSimulation, ABaseWithoutUnknownsMovesAWall) {
+  // Supports on two faces leave the base no motion of its own: its part of the shared equations has no rows.
+  Scene scene = wall(3, 4);
+  BlockDefinition base =
+      block_of("base", Polyhedron(make_box({-1, -1, -0.5}, {2.6, 1, 0})), {2000, 1e9, 0.2}, 1);
+  const SupportHistory history{{0.0, 1.0}, {Vector3(2, 0, 0), Vector3(2, 0, 0)}, MotionRecord::acceleration};
+  for (const double z : {-0.5, 0.0})
+    base.supports.push_back(
+        {Plane{{0, 0, z}, z < 0.0 ? Vector3(-Vector3::UnitZ()) : Vector3(Vector3::UnitZ())},
+         {true, true, true},
+         history});
+  ASSERT_EQ(BlockModel(base).unknowns(), 0);
+  scene.blocks.front() = base;
+  const End alone = run_alone(scene, 40);
+  // 2 m/s^2 for 80 ms: friction carries the bricks of 0.016 m3 along by 6.4 mm.
+  const double moved =
+      (alone.states[1].position - BlockModel(scene.blocks[1]).initial_state().position)(0, 0);
+  EXPECT_NEAR(moved / std::sqrt(0.016), 6.4e-3, 6.4e-4);
+  for (const int ranks : {2, 4}) {
+    const End shared = run_shared(scene, owners_of(scene, ranks), ranks, 40);
+    EXPECT_LT(distance(alone, shared), 1e-9) << ranks;
+  }
+}
+
 TEST(SharedSimulation, APileFallsAlikeOnAnyNumberOfRanks) {
   const Scene scene = pile(6, 1);
   const End alone = run_alone(scene, 110);
