@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <stdexcept>
@@ -40,7 +41,7 @@ std::vector<Number> next(std::istream& in, std::size_t count) {
 }
 
 FrictionProblem read_problem(const std::string& name) {
-  std::ifstream in(std::string(ASHLAR_FRICTION_PROBLEMS) + "/" + name);
+  std::ifstream in(std::filesystem::path(ASHLAR_FRICTION_PROBLEMS) / name);
   const int dimension = next<int>(in);
   const auto contacts = next<std::size_t>(in);
   const int storage = next<int>(in);
