@@ -16,6 +16,21 @@ extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
 extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
 
 namespace ashlar {
+namespace {
+
+/// CHOLMOD's loops and OpenBLAS in this thread only: the limit of nested teams is one of the calling thread.
+void keep_to_this_thread() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+  });
+  thread_local bool limited = false;
+  if (limited) return;
+  if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);
+  limited = true;
+}
+
+}  // namespace
 
 struct SparseCholesky::Implementation {
   cholmod_common common;
@@ -26,11 +41,6 @@ struct SparseCholesky::Implementation {
   FactorCounts counts;
 
   Implementation() {
-    static std::once_flag once;
-    std::call_once(once, [] {
-      if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
-      if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);
-    });
     cholmod_start(&common);
     common.print = 0;
     common.final_ll = 1;
@@ -76,6 +86,7 @@ struct SparseCholesky::Implementation {
 
   /// Simplicial factors do not use BLAS.
   [[nodiscard]] std::optional<BlasUse> blas_use() const {
+    keep_to_this_thread();
     std::optional<BlasUse> use;
     if (factor->is_super != 0) use.emplace();
     return use;
@@ -103,6 +114,7 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
   if (self.factored) return FactorStatus::success;
   cholmod_sparse view = self.view();
   if (!same_pattern) {
+    keep_to_this_thread();
     cholmod_free_factor(&self.factor, &self.common);
     self.factor = cholmod_analyze(&view, &self.common);
     if (self.factor == nullptr) throw std::bad_alloc();
