@@ -30,6 +30,7 @@ void take_estimate(const AccuracyEstimate& estimate, AccuracyState& choice) {
   choice.sub_face_error = estimate.sub_faces;
   choice.goals = estimate.goals;
   choice.slow_block = estimate.slow_block;
+  choice.out_of_reach = estimate.out_of_reach;
 }
 
 /// @return false if it was ended

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "geometry/index.hpp"
 #include "solver/accuracy/goal_distance.hpp"
+#include "solver/accuracy/island_errors.hpp"
 #include "solver/run/order_error.hpp"
 #include "solver/step/snapshot.hpp"
 
@@ -74,25 +76,10 @@ double difference_of_goals(const MotionScales& scales, const TriedStep& a, const
   return largest;
 }
 
-/// Difference of two ends in energy and displacement, relative.
-double difference_of_blocks(const Simulation& simulation, const MotionScales& scales, const TriedStep& a,
-                            const TriedStep& b) {
-  double energy = 0.0, displacement = 0.0;
-  for (std::size_t k = 0; k < a.states.size(); ++k) {
-    if (!simulation.system().moving()[k]) continue;
-    const BlockModel& block = simulation.blocks()[k];
-    const Eigen::MatrixX3d position = a.states[k].position - b.states[k].position;
-    const BlockState motion{a.states[k].position, a.states[k].velocity - b.states[k].velocity};
-    energy += block.kinetic_energy(motion);
-    if (!block.rigid()) {
-      const Eigen::MatrixX3d force =
-          block.elastic(a.states[k].position).force - block.elastic(b.states[k].position).force;
-      energy += 0.5 * std::abs(force.cwiseProduct(position).sum());
-    }
-    displacement = std::max(displacement, mean_length(block, position));
-  }
-  const double of_energy = scales.energy > 0.0 ? std::sqrt(energy / scales.energy) : 0.0;
-  return scales.displacement > 0.0 ? std::max(of_energy, displacement / scales.displacement) : of_energy;
+std::vector<int> all_blocks(std::size_t count) {
+  std::vector<int> blocks(count);
+  std::iota(blocks.begin(), blocks.end(), 0);
+  return blocks;
 }
 
 /// Of any block, root of the mean square, m/s.
@@ -128,7 +115,8 @@ class StepTests {
         shortest_(state.impacts > 0 && state.scales.impact_speed > 0.0
                       ? impact_step(request, state.scales) / 8.0
                       : 0.0),
-        marks_(contact_marks(simulation)) {}
+        marks_(contact_marks(simulation)),
+        islands_(blocks_in_touch(simulation)) {}
 
   /// Chooses the length of the next step.
   void choose() {
@@ -141,6 +129,7 @@ class StepTests {
       halve(step, *error);
     else
       double_if_enough(step, *error);
+    note_bound();
   }
 
  private:
@@ -151,13 +140,23 @@ class StepTests {
     const auto whole = tried(simulation_, step, 1, request_.end_time, goals_);
     const auto halves = tried(simulation_, 0.5 * step, 2, request_.end_time, goals_);
     if (!whole || !halves || whole->marks != halves->marks || whole->marks != marks_) return std::nullopt;
+    const std::vector<BlockDifference> blocks = block_differences(simulation_, whole->states, halves->states);
+    bounding_ = bounding_island(islands_, blocks, state_.scales,
+                                order_of(simulation_.system().settings().integrator));
     const double difference = whole->goals.empty()
-                                  ? difference_of_blocks(simulation_, state_.scales, *whole, *halves)
+                                  ? relative_difference(blocks, all_blocks(blocks.size()), state_.scales)
                                   : difference_of_goals(state_.scales, *whole, *halves);
     return difference * power_ / (power_ - 1.0);
   }
 
   [[nodiscard]] double allowed(double step) const { return request_.accuracy * step / request_.end_time; }
+
+  void note_bound() {
+    const double step = simulation_.system().settings().time_step;
+    if (bounding_.blocks.empty() || (state_.shortest_step > 0.0 && !(step < state_.shortest_step))) return;
+    state_.shortest_step = step;
+    state_.bounding = bounding_;
+  }
 
   void take(double step, double error) {
     simulation_.set_time_step(step);
@@ -203,6 +202,8 @@ class StepTests {
   double longest_;   ///< s
   double shortest_;  ///< s
   std::vector<int> marks_;
+  std::vector<std::vector<int>> islands_;
+  BoundingIsland bounding_;  ///< in the last test
 };
 
 /// Largest values of the steps of a pilot.
@@ -289,10 +290,9 @@ class PilotRecord {
   bool any_step_ = false;
 };
 
-}  // namespace
-
-std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const GoalValues& goals,
-                                  const std::function<bool()>& goes_on) {
+/// Runs to the end and takes it back. @return empty if it was ended
+std::optional<PilotRun> pilot_in_steps(Simulation& simulation, double end_time, const GoalValues& goals,
+                                       const std::function<bool()>& goes_on) {
   const SimulationSnapshot before = simulation.snapshot();
   PilotRecord record(simulation, goals);
   bool goes = true;
@@ -302,6 +302,57 @@ std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const
   }
   simulation.restore(before);
   return goes ? std::optional(record.result()) : std::nullopt;
+}
+
+/// True if two pilots without impacts have found nearly the same largest values.
+bool agree(const MotionScales& a, const MotionScales& b) {
+  constexpr double tolerance = 0.2;
+  const auto near = [](double x, double y) { return std::abs(x - y) <= tolerance * std::max(x, y); };
+  return a.impact_speed == 0.0 && b.impact_speed == 0.0 && near(a.energy, b.energy) &&
+         near(a.displacement, b.displacement) &&
+         std::equal(a.goals.begin(), a.goals.end(), b.goals.begin(), near) &&
+         std::equal(a.rates.begin(), a.rates.end(), b.rates.begin(), near);
+}
+
+/// True if moving blocks are rigid, under constant loads: nothing oscillates within a coarse step.
+bool moves_plainly(const Simulation& simulation, double end_time) {
+  const double now = simulation.time();
+  if (simulation.system().settings().gravity_history.changes_between(now, end_time)) return false;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    if (block.driven() || block.loads_change_between(now, end_time)) return false;
+    if (simulation.system().moving()[k] && !block.rigid()) return false;
+  }
+  return true;
+}
+
+/// Pilots of 16 and 32 steps, enough for blocks without vibrations and orders. @return the pilots; fewer than two: ended
+std::vector<PilotRun> coarse_pilots(Simulation& simulation, double end_time, const GoalValues& goals,
+                                    const std::function<bool()>& goes_on) {
+  const double given = simulation.system().settings().time_step;
+  std::vector<PilotRun> pilots;
+  for (const double count : {16.0, 32.0}) {
+    simulation.set_time_step(end_time / count);
+    const auto pilot = pilot_in_steps(simulation, end_time, goals, goes_on);
+    if (!pilot) break;
+    pilots.push_back(*pilot);
+  }
+  simulation.set_time_step(given);
+  return pilots;
+}
+
+}  // namespace
+
+std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const GoalValues& goals,
+                                  const std::function<bool()>& goes_on) {
+  constexpr double many_steps = 64.0;
+  if (moves_plainly(simulation, end_time) &&
+      end_time > many_steps * simulation.system().settings().time_step) {
+    const std::vector<PilotRun> coarse = coarse_pilots(simulation, end_time, goals, goes_on);
+    if (coarse.size() < 2) return std::nullopt;
+    if (agree(coarse.front().scales, coarse.back().scales)) return coarse.back();
+  }
+  return pilot_in_steps(simulation, end_time, goals, goes_on);
 }
 
 void choose_step(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,

@@ -18,6 +18,9 @@
 // place is not known better. Orders are then chosen by the motion before the first impact, as each order changes what
 // follows.
 //
+// The error of a step is that of all blocks. Each test also compares the two ends by islands, of blocks that touch or
+// are joined (island_errors.hpp): the one with the largest error bounds the step.
+//
 // Notes: notes/accuracy.md.
 #pragma once
 
@@ -41,6 +44,13 @@ struct MotionScales {
   double impact_speed = 0.0;
 };
 
+/// The island whose error bounds the step: the step is one for all blocks.
+struct BoundingIsland {
+  std::vector<int> blocks;  ///< in contact, tied or bolted; empty: unknown
+  double gain =
+      0.0;  ///< >= 1, times the step that all others would allow; 0: there are none, or they have no error
+};
+
 /// State of the choice, for checkpoints.
 struct MotionAccuracyState {
   MotionScales scales;
@@ -53,6 +63,8 @@ struct MotionAccuracyState {
   std::int64_t impacts = 0;        ///< steps in which contacts changed
   std::int64_t tests = 0;          ///< steps tried whole and in halves
   std::vector<int> contact_marks;  ///< pairs in touch after the last step
+  double shortest_step = 0.0;      ///< s, shortest that a test has chosen; 0: none yet
+  BoundingIsland bounding;         ///< in that test
 };
 
 struct MotionRequest {

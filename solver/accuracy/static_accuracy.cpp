@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
 
 #include "geometry/index.hpp"
 #include "solver/accuracy/chosen_orders.hpp"
 #include "solver/accuracy/goal_distance.hpp"
+#include "solver/accuracy/order_estimate.hpp"
 #include "solver/run/order_error.hpp"
 
 namespace ashlar {
@@ -20,72 +20,39 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Energy that all estimated blocks lack, J.
-double sum_of_lacks(const AccuracyRound& round) {
-  double sum = 0.0;
-  for (const double lack : round.lacks) sum += std::max(lack, 0.0);
-  return sum;
-}
+/// Rounds whose lacks come from the next orders; later ones have two changes.
+constexpr std::size_t rounds_with_next_orders = 2;
 
-/// Error of the energy, relative.
-double error_of_energy(const AccuracyRound& round) {
-  const double lacks = sum_of_lacks(round);
-  return lacks > 0.0 ? lacks / (sum_of(round.energies) + lacks) : 0.0;
-}
-
-AccuracyRound round_of(const Simulation& simulation, const std::vector<Goal>& goals) {
+AccuracyRound values_of(const Simulation& simulation, const std::vector<Goal>& goals) {
   AccuracyRound round;
   for (const Goal& goal : goals) round.goals.push_back(goal.values);
   const std::size_t count = simulation.blocks().size();
   round.energies.assign(count, 0.0);
-  round.lacks = unknown_lacks(simulation);
   for (std::size_t k = 0; k < count; ++k) {
     const BlockModel& block = simulation.blocks()[k];
     if (simulation.system().moving()[k] && !block.rigid())
       round.energies[k] = block.elastic(simulation.states()[k].position).energy;
   }
-  for (const OrderError& error : order_errors(simulation)) round.lacks[at(error.block)] = error.lacks;
   return round;
 }
 
-/// Estimated distance of a goal to its limit. Changes are those over two rounds: an even function has no odd part, so that
-/// every second order may change nothing. The ratio of two of them is bounded from below, as a change that is small by
-/// chance is not the end, and from above, where the sum of what is left would have no meaning.
-double distance_to_limit(std::span<const AccuracyRound> rounds, std::size_t goal) {
-  constexpr double least_ratio = 1.0 / 3.0, largest_ratio = 0.8, unknown_ratio = 0.5;
-  const auto change = [&](std::size_t k) {
-    return goal_distance(rounds[k].goals[goal], rounds[k - std::min<std::size_t>(k, 2)].goals[goal]);
-  };
-  const std::size_t last = rounds.size() - 1;
-  double ratio = last < 3 ? unknown_ratio : least_ratio;
-  if (last >= 4 && change(last) > 0.0)
-    ratio = std::clamp(change(last) / change(last - 2), least_ratio, largest_ratio);
-  return change(last) * ratio / (1.0 - ratio);
-}
-
-double relative_to(double error, const Goal& goal) {
-  const double scale = std::max(goal_length(goal.values), goal.least);
-  return error > 0.0 ? (scale > 0.0 ? error / scale : no_estimate) : 0.0;
-}
-
-/// True if all moving blocks that deform are estimated.
-bool is_whole(const AccuracyRound& round) {
-  return std::none_of(round.lacks.begin(), round.lacks.end(), [](double lack) { return lack < 0.0; });
-}
-
-/// Rounds from the first one on in which a block deforms: supports may leave no motion to low orders, and nothing changes.
-std::span<const AccuracyRound> deforming(std::span<const AccuracyRound> rounds) {
-  const auto first = std::find_if(rounds.begin(), rounds.end(),
-                                  [](const AccuracyRound& round) { return sum_of(round.energies) > 0.0; });
-  return rounds.subspan(static_cast<std::size_t>(first - rounds.begin()));
-}
-
-/// Error of a goal by the orders of blocks. If all blocks are estimated, it is not larger than the error in the norm of
-/// the energy; after two rounds nothing else is known, as the second may have changed nothing by chance.
-double order_error_of(const std::vector<AccuracyRound>& all, std::size_t index, const Goal& goal) {
-  const std::span<const AccuracyRound> rounds = deforming(all);
-  const double in_norm = is_whole(all.back()) ? std::sqrt(error_of_energy(all.back())) : no_estimate;
-  return rounds.size() > 2 ? std::min(in_norm, relative_to(distance_to_limit(rounds, index), goal)) : in_norm;
+/// @param earlier rounds of orders
+AccuracyRound round_of_orders(const Simulation& simulation, const AccuracyRequest& request,
+                              const std::vector<Goal>& goals, const std::vector<AccuracyRound>& earlier) {
+  AccuracyRound round = values_of(simulation, goals);
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
+    round.orders.push_back(request.orders[k] ? simulation.blocks()[k].order() : 0);
+  if (!goals.empty())
+    for (const BlockState& state : simulation.states()) round.positions.push_back(state.position);
+  round.of_changes = !goals.empty() && earlier.size() >= rounds_with_next_orders;
+  if (round.of_changes) {
+    round.lacks = earlier.back().lacks;
+    take_lacks_of_changes(simulation, earlier, round);
+  } else {
+    round.lacks = unknown_lacks(simulation);
+    for (const OrderError& error : order_errors(simulation)) round.lacks[at(error.block)] = error.lacks;
+  }
+  return round;
 }
 
 /// Sub-faces: errors of gaps are proportional to the chord tolerance, which a round divides by this.
@@ -219,14 +186,15 @@ bool sub_faces_suffice(const AccuracyRequest& request, const std::vector<Goal>& 
   return !goals.empty() || sub_face_error_of_energy(rounds) <= request.accuracy;
 }
 
-/// The block with the largest lack, if the last order has reduced it by less than half.
-int slow_block_of(const std::vector<AccuracyRound>& rounds) {
-  if (rounds.size() < 2) return -1;
-  const std::vector<double>& last = rounds.back().lacks;
-  const auto worst = std::max_element(last.begin(), last.end());
-  const std::vector<double>& before = rounds[rounds.size() - 2].lacks;
-  const double earlier = before[static_cast<std::size_t>(worst - last.begin())];
-  return *worst > 0.0 && *worst > 0.5 * earlier ? static_cast<int>(worst - last.begin()) : -1;
+/// Errors that the highest order would still have where changes fall slowly: ends the choice if they are far above the
+/// accuracy. @return the largest of them, or 0
+double error_out_of_reach(const AccuracyRequest& request, const std::vector<Goal>& goals,
+                          const std::vector<AccuracyRound>& rounds) {
+  constexpr double far_above = 3.0;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    largest = std::max(largest, slow_error_at(rounds, k, goals[k], largest_chosen_order));
+  return largest > far_above * request.accuracy ? largest : 0.0;
 }
 
 }  // namespace
@@ -250,11 +218,13 @@ bool raise_orders(Simulation& simulation, const AccuracyRequest& request, const 
 
 bool refine(Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
             AccuracyRounds& rounds) {
-  (rounds.divides ? rounds.sub_faces : rounds.orders).push_back(round_of(simulation, goals));
   if (rounds.divides) {
+    rounds.sub_faces.push_back(values_of(simulation, goals));
     if (sub_faces_suffice(request, goals, rounds)) return false;
   } else {
-    if (raise_orders(simulation, request, goals, rounds)) return true;
+    rounds.orders.push_back(round_of_orders(simulation, request, goals, rounds.orders));
+    rounds.out_of_reach = error_out_of_reach(request, goals, rounds.orders);
+    if (rounds.out_of_reach == 0.0 && raise_orders(simulation, request, goals, rounds)) return true;
     if (!request.sub_faces || !has_curved_contacts(simulation)) return false;
     rounds.divides = true;
   }
@@ -297,6 +267,7 @@ AccuracyEstimate accuracy_estimate(const std::vector<Goal>& goals, const Accurac
     estimate.sub_faces = sub_face_error_of_energy(rounds);
   }
   estimate.slow_block = slow_block_of(rounds.orders);
+  estimate.out_of_reach = rounds.out_of_reach;
   return estimate;
 }
 

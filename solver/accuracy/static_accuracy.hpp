@@ -1,14 +1,16 @@
 // Orders of blocks and sub-faces chosen for an accuracy, in a static analysis.
 //
 // The analysis finds an equilibrium with the present orders: a round. Then, in this order,
-// - while a goal still changes by more than its accuracy, the blocks whose orders lack the most energy (order_error.hpp)
-//   get the next order; without goals, those that lack more than the accuracy allows;
+// - while a goal still changes by more than its accuracy, the blocks that lack the most energy get the next order;
+//   without goals, those that lack more than the accuracy allows;
 // - once orders suffice, the chord tolerance of curved faces is divided by four until goals change by no more;
 // and the analysis goes on from there, with its contacts and their memory: another round. Errors are estimated from the
-// changes d of goals over two rounds: with the ratio q of two of them, those that are left add up to d q / (1 - q).
-// The energy that a block lacks is the square of its error in the norm of the energy; an error of a displacement is a
-// product of two such norms (R. Becker and R. Rannacher, Acta Numerica 10 (2001) 1), so that it is of the size of that
-// square.
+// changes of goals over two rounds (order_estimate.hpp). In the first two rounds, and without goals, a block's lack
+// of energy comes from its next two orders (order_error.hpp); later it is the energy of what its last two orders have
+// changed, which needs no block of a higher order.
+//
+// If even the highest order of a block is far from the accuracy, as the changes fall algebraically, the choice ends
+// early.
 //
 // Notes: notes/accuracy.md.
 #pragma once
@@ -42,6 +44,10 @@ struct AccuracyRound {
   std::vector<std::vector<double>> goals;  ///< values
   std::vector<double> energies;            ///< by block, J: of strain, in a motion with that of motion
   std::vector<double> lacks;               ///< J by block, as OrderError; negative: not estimated
+  /// By block: order if it is chosen, otherwise 0; empty: unknown
+  std::vector<int> orders = {};
+  std::vector<Eigen::MatrixX3d> positions = {};  ///< by block, BlockState::position, (p, 3); empty: unknown
+  bool of_changes = false;  ///< true: lacks are what the last orders have changed, not those of the next
 };
 
 /// Lacks before any estimate: unknown of moving blocks that deform, 0 of others.
@@ -53,6 +59,7 @@ struct AccuracyRounds {
   std::vector<AccuracyRound> sub_faces;  ///< after those, with smaller and smaller chord tolerances
   bool divides = false;                  ///< true once orders suffice and the chord tolerance changes
   std::vector<int> highest;              ///< blocks whose shape or material allows no higher order
+  double out_of_reach = 0.0;             ///< see AccuracyEstimate
 };
 
 /// Estimates, all relative.
@@ -63,6 +70,8 @@ struct AccuracyEstimate {
   /// The block that hinders convergence: its lack of energy is the largest, and the last higher order has hardly reduced
   /// it. -1: none
   int slow_block = -1;
+  /// > 0: the choice has ended early, as the highest order would still have about this error
+  double out_of_reach = 0.0;
 
   [[nodiscard]] double largest() const { return order > sub_faces ? order : sub_faces; }
 };

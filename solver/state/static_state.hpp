@@ -36,14 +36,15 @@ struct StaticOnset {
 
 /// State of a static analysis between iterations.
 struct StaticState {
-  double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0 before the first
+  double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0: none yet, nor an equilibrium
   int iterations = 0;             ///< at the present loads
   int still_iterations = 0;       ///< consecutive ones in equilibrium with unchanged contacts
   bool freezes_failure = false;   ///< until the first balance with bonds that do not fail
   int multiplier_iterations = 0;  ///< in equilibrium whose multipliers had not converged
   bool balanced = false;          ///< equilibrium at the present loads
   bool moving = false;
-  std::vector<Eigen::MatrixX3d> level_start;  ///< by block, positions at the start of the load level
+  std::vector<Eigen::MatrixX3d>
+      level_start;  ///< by block, positions at the start of the load level; empty before
   StaticProgress progress;
   StaticOnset onset;
 };

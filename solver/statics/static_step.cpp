@@ -50,6 +50,11 @@ double least_inertia(const BlockSystem& system) {
          most;
 }
 
+/// False before the first iteration at the present loads and orders.
+bool has_level(const BlockSystem& system, const StaticState& statics) {
+  return statics.level_start.size() == system.blocks().size();
+}
+
 void start_load_level(const BlockSystem& system, RunState& state, double end_time) {
   const double time_step = system.settings().time_step;
   StepClock& clock = state.clock;
@@ -65,7 +70,7 @@ void start_load_level(const BlockSystem& system, RunState& state, double end_tim
   }
   // Between equilibria, inertia would make blocks slide that supports only carry along.
   StaticState& statics = state.statics;
-  const bool from_equilibrium = statics.balanced;
+  const bool from_equilibrium = statics.balanced || (statics.inertia > 0.0 && !has_level(system, statics));
   statics = StaticState{};
   if (from_equilibrium) statics.inertia = least_inertia(system);
   if (statics.inertia == 0.0) statics.inertia = 2.0 / (time_step * time_step);
@@ -263,7 +268,8 @@ StaticStatus static_step(const RunContext& run, double end_time, double far) {
   if (statics.moving) return StaticStatus::moving;
   if (statics.balanced && state.reached(system.settings().time_step, end_time))
     return StaticStatus::equilibrium;
-  if (statics.inertia == 0.0 || statics.balanced) start_load_level(system, state, end_time);
+  if (statics.inertia == 0.0 || statics.balanced || !has_level(system, statics))
+    start_load_level(system, state, end_time);
   if (statics.iterations >= system.settings().statics.iterations) return give_up(system, statics);
   ++statics.iterations;
   return StaticIteration(run, end_time, far).run();

@@ -73,7 +73,11 @@ DroppedByOrder change_order(BlockSystem& system, RunState& state, StepCaches& ca
   ledger.measure(system, state.states);
   const double dropped = before - ledger.mechanical();
   ledger.integrator_took(dropped);
+  // Near an equilibrium the next iteration needs no more inertia than the last one.
+  const bool near = state.statics.balanced || state.statics.level_start.size() != system.blocks().size();
+  const double inertia = near ? state.statics.inertia : 0.0;
   state.statics = StaticState{};
+  state.statics.inertia = inertia;
   return {changed.dropped_displacement, changed.dropped_velocity, dropped};
 }
 

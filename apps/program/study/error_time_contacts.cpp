@@ -16,23 +16,45 @@ namespace {
 constexpr double not_run = std::numeric_limits<double>::infinity();
 const GoalValues energies_alone = [](const Simulation&) { return std::vector<Goal>(); };
 
+/// Steps to an end time, of a chosen length if the setting has an accuracy, as a run of a scene takes them.
+class ChosenSteps {
+ public:
+  ChosenSteps(Simulation& simulation, double end, const ErrorTimeSetting& setting)
+      : simulation_(simulation), end_(end), setting_(setting), chosen_(setting.accuracy > 0.0) {
+    if (!chosen_) return;
+    simulation.set_time_step(end / automatic_steps);
+    state_.scales = pilot_run(simulation, end, energies_alone, [] { return true; })->scales;
+  }
+
+  /// @return false if a step cannot be taken
+  [[nodiscard]] bool take() {
+    if (chosen_) choose_step(simulation_, {setting_.accuracy, end_ / 16.0, end_}, energies_alone, state_);
+    if (simulation_.step(end_) != StepStatus::accepted) return false;
+    if (chosen_) note_step(simulation_, state_);
+    return true;
+  }
+
+  void tell_estimate() const {
+    if (chosen_ && setting_.estimate != nullptr)
+      *setting_.estimate =
+          state_.error + state_.noise + (state_.scales.impact_speed > 0.0 ? state_.impact_error : 0.0);
+  }
+
+ private:
+  Simulation& simulation_;
+  double end_;  ///< s
+  const ErrorTimeSetting& setting_;
+  bool chosen_;
+  MotionAccuracyState state_;
+};
+
 }  // namespace
 
 bool runs_to(Simulation& simulation, double time, const ErrorTimeSetting& setting) {
-  MotionAccuracyState state;
-  const bool chosen = setting.accuracy > 0.0;
-  if (chosen) {
-    simulation.set_time_step(time / automatic_steps);
-    state.scales = pilot_run(simulation, time, energies_alone, [] { return true; })->scales;
-  }
-  while (!simulation.reached(time)) {
-    if (chosen) choose_step(simulation, {setting.accuracy, time / 16.0, time}, energies_alone, state);
-    if (simulation.step(time) != StepStatus::accepted) return false;
-    if (chosen) note_step(simulation, state);
-  }
-  if (chosen && setting.estimate != nullptr)
-    *setting.estimate =
-        state.error + state.noise + (state.scales.impact_speed > 0.0 ? state.impact_error : 0.0);
+  ChosenSteps steps(simulation, time, setting);
+  while (!simulation.reached(time))
+    if (!steps.take()) return false;
+  steps.tell_estimate();
   return true;
 }
 
@@ -40,7 +62,7 @@ double rocking_error(const ErrorTimeSetting& setting) {
   constexpr double half_width = 0.1, half_height = 0.3, exact = 1.0954 / 4.0, end = 0.35;
   const double start = 0.5 * std::atan(half_width / half_height);
   ContactScene scene;
-  scene.settings.time_step = setting.time_step;
+  if (setting.accuracy == 0.0) scene.settings.time_step = setting.time_step;
   scene.settings.integrator = setting.integrator;
   scene.settings.area_springs = false;
   *scene.law = {1e9, 1e9, tangent_of(60), 0.0, 0.0, false};
@@ -53,12 +75,14 @@ double rocking_error(const ErrorTimeSetting& setting) {
   const auto height = [&] {
     return simulation.blocks()[1].motion_of(simulation.states()[1], edge).place.z();
   };
+  ChosenSteps steps(simulation, end, setting);
   double before = height();
   while (!simulation.reached(end)) {
-    if (simulation.step(end) != StepStatus::accepted) return not_run;
+    if (!steps.take()) return not_run;
     const double now = height();
     if (now <= 0.0) {
       const double time = simulation.time() - simulation.report().step * now / (now - before);
+      steps.tell_estimate();
       return std::abs(time / exact - 1.0);
     }
     before = now;

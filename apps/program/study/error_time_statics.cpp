@@ -15,7 +15,8 @@ namespace {
 
 constexpr double no_equilibrium = std::numeric_limits<double>::infinity();
 
-/// Error of the only value of a goal in equilibrium. @param exact of the goal's unit
+}  // namespace
+
 double error_in_equilibrium(Simulation simulation, const GoalValues& goal, double exact,
                             const ErrorTimeSetting& setting) {
   if (setting.accuracy == 0.0) {
@@ -31,8 +32,6 @@ double error_in_equilibrium(Simulation simulation, const GoalValues& goal, doubl
   }
   return std::abs(goal(simulation)[0].values[0] / exact - 1.0);
 }
-
-}  // namespace
 
 double plate_error(const ErrorTimeSetting& setting) {
   const GoalValues middle = [](const Simulation& now) {

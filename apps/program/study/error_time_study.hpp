@@ -13,7 +13,7 @@ struct ErrorTimeStudySize {
   int accuracies = 4;  ///< 0.1, 0.01, ... asked for
 };
 
-/// Eight problems with known answers:
+/// Ten problems, nine with known answers:
 ///   1 incline: a cube slides down 30 degrees under 20 degrees of friction for 0.4 s; the distance of a rigid cube is
 ///     (sin a - tan(phi) cos a) g t^2 / 2. A deformable cube oscillates after its release, and differs the more from a
 ///     rigid one the less a step damps this;
@@ -21,7 +21,9 @@ struct ErrorTimeStudySize {
 ///   3 tumbling: a free box of 1 x 2 x 3 m rotates for 5 s about its middle axis, which is unstable; Euler's equations,
 ///     integrated by the Runge-Kutta method with steps of 0.1 ms;
 ///   4 cantilever: statics of one block of orders 1 to 8 (orders_study.hpp);
-///   5 to 8: plate and Hertz's sphere in statics, a block that rocks, two bars that meet (error_time_problems.hpp).
+///   5 to 8: plate and Hertz's sphere in statics, a block that rocks, two bars that meet (error_time_problems.hpp);
+///   9 arch: statics of eight voussoirs with friction, without a closed form: the reference is a run of higher orders;
+///   10 sliding: a rigid block that a pulse moves against friction (error_time_problems.hpp has 9 and 10).
 /// Errors: distance, relative; strain and rate relative to their amplitudes; norm of the difference of the rotations;
 /// tip deflection, relative. Contact is by multipliers, or by springs for some curves. The paper's scheme (dda,
 /// incremental, point springs, flat sub-faces) is a curve of 1 to 3.

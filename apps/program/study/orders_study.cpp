@@ -9,9 +9,9 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "apps/program/study/error_time_problems.hpp"
 #include "apps/program/verify/verification_blocks.hpp"
 #include "mechanics/basis/quadrature.hpp"
-#include "solver/accuracy/static_accuracy.hpp"
 
 namespace ashlar {
 namespace {
@@ -194,23 +194,13 @@ Solved solve_smooth(int order) {
 
 }  // namespace
 
-double cantilever_error(int order) {
-  return solve_cantilever(order).error;
-}
-
-ChosenRun cantilever_for(double accuracy) {
-  Simulation simulation = lone_block(cantilever(1), {}, {});
+double cantilever_error(const ErrorTimeSetting& setting) {
   const GoalValues tip = [](const Simulation& now) {
     return std::vector<Goal>{
         {"tip", {displacement(now.blocks()[0], now.states()[0].position, tip_of_cantilever).z()}}};
   };
-  AccuracyRounds rounds;
-  if (find_equilibrium(simulation, 1.0, {accuracy, {true}}, tip, rounds, [] { return true; }) !=
-      StaticStatus::equilibrium)
-    throw std::runtime_error("the cantilever has no equilibrium");
-  const std::vector<Goal> reached = tip(simulation);
-  return {"cantilever", accuracy, std::abs(reached[0].values[0] / converged_tip - 1.0),
-          accuracy_estimate(reached, rounds).largest()};
+  return error_in_equilibrium(lone_block(cantilever(setting.accuracy > 0.0 ? 1 : setting.order), {}, {}), tip,
+                              converged_tip, setting);
 }
 
 StudyResult study_orders() {

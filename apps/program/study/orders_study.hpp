@@ -14,9 +14,6 @@ namespace ashlar {
 /// The same with orders up to a given one, at least 5; only the largest order is checked against the required error.
 [[nodiscard]] StudyResult study_orders_to(int most_order);
 
-/// Relative error of the tip of the first problem.
-[[nodiscard]] double cantilever_error(int order);
-
 /// A run whose order, or whose step, is chosen for an accuracy. All relative.
 struct ChosenRun {
   std::string name;
@@ -24,8 +21,5 @@ struct ChosenRun {
   double error;     ///< true one
   double estimate;  ///< told by the run
 };
-
-/// The first problem with the order chosen for an accuracy of the tip.
-[[nodiscard]] ChosenRun cantilever_for(double accuracy);
 
 }  // namespace ashlar

@@ -9,7 +9,8 @@
 
 namespace ashlar {
 
-double VoussoirArch::add_to(ContactScene& scene, const Material& material) const {
+double VoussoirArch::add_to(ContactScene& scene, const Material& material,
+                            const std::vector<int>& orders) const {
   const auto joint = [&](int k, std::vector<Vector3>& points) {
     const double angle = std::numbers::pi * k / count;
     for (const double radius : {inner_radius(), outer_radius()}) {
@@ -22,7 +23,8 @@ double VoussoirArch::add_to(ContactScene& scene, const Material& material) const
     std::vector<Vector3> points;
     joint(k, points);
     joint(k + 1, points);
-    BlockDefinition block = define_block(hull_of(points), material, 1);
+    const int order = orders.empty() ? 1 : orders.at(static_cast<std::size_t>(k));
+    BlockDefinition block = define_block(hull_of(points), material, order);
     if (k == 0) size = block_size(BlockModel(block));
     scene.add(std::move(block));
   }

@@ -15,8 +15,8 @@ struct VoussoirArch {
   [[nodiscard]] double inner_radius() const { return (1.0 - 0.5 * ratio) * mean_radius; }
   [[nodiscard]] double outer_radius() const { return (1.0 + 0.5 * ratio) * mean_radius; }
   /// The voussoirs, 0 first at the springing of positive x, then two fixed blocks below the springings.
-  /// @return size of a voussoir, m (block_size)
-  double add_to(ContactScene& scene, const Material& material) const;
+  /// @param orders of the voussoirs; empty: 1. @return size of a voussoir, m (block_size)
+  double add_to(ContactScene& scene, const Material& material, const std::vector<int>& orders = {}) const;
   /// The smallest tan(phi) at which rigid voussoirs stand, by the required thrust.
   ///
   /// Half of the arch above the joint at the angle a from the springing has the area A(a) and its moment about the

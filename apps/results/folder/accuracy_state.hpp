@@ -16,6 +16,7 @@ struct AccuracyState {
   double sub_face_error = 0.0;
   std::vector<double> goals;   ///< of each measure, of both
   int slow_block = -1;         ///< see AccuracyEstimate
+  double out_of_reach = 0.0;   ///< see AccuracyEstimate
   MotionAccuracyState motion;  ///< of a run whose step is automatic
 
   /// Sum of all, relative.

@@ -1,12 +1,14 @@
 #include "apps/results/folder/error_summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/accuracy/chosen_orders.hpp"
 
 namespace ashlar {
 namespace {
@@ -37,6 +39,32 @@ int left_low(const Simulation& simulation, const AccuracyState& state) {
   for (const auto& [block, order] : state.orders)
     if (!simulation.blocks()[at(block)].rigid() && order < largest) ++count;
   return count;
+}
+
+/// Of a choice that ended early.
+std::string left_at_highest_order(const AccuracyState& state) {
+  return state.out_of_reach > 0.0
+             ? fmt::format(" (order {} would leave about {:.1g})", largest_chosen_order, state.out_of_reach)
+             : "";
+}
+
+/// Names of the first ones.
+std::vector<std::string> first_names(const Simulation& simulation, const std::vector<int>& blocks) {
+  constexpr std::size_t most = 10;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(blocks.size(), most); ++k)
+    names.push_back(simulation.blocks()[at(blocks[k])].name());
+  return names;
+}
+
+/// To end a sentence; empty: unknown.
+std::string bound_of_step(const Simulation& simulation, const BoundingIsland& bounding) {
+  if (bounding.blocks.empty()) return {};
+  const std::vector<std::string> names = first_names(simulation, bounding.blocks);
+  const std::string others =
+      bounding.gain > 0.0 ? fmt::format(", others would allow {:.2g} times the step", bounding.gain) : "";
+  return fmt::format("; the step is bounded by {} {}{}{}", names.size() == 1 ? "block" : "blocks",
+                     fmt::join(names, ", "), names.size() < bounding.blocks.size() ? ", ..." : "", others);
 }
 
 }  // namespace
@@ -73,18 +101,24 @@ std::string accuracy_advice(const Scene& scene, const Simulation& simulation, co
   const double by_step = state.motion.error + state.motion.noise;
   if (by_step > state.order_error && by_step > state.sub_face_error)
     return "steps do not resolve its impacts or vibrations: a larger accuracy, or a given time_step, is "
-           "needed";
+           "needed" +
+           bound_of_step(simulation, state.motion.bounding);
   if (state.sub_face_error > state.order_error)
     return "curved faces in contact need more sub-faces: a smaller contact.chord_tolerance is needed";
   if (state.slow_block >= 0) {
     const BlockModel& block = simulation.blocks()[at(state.slow_block)];
     return fmt::format(
-        "a higher order of block {} (now {}) helps little, its stress is concentrated at {}: several tied "
+        "a higher order of block {} (now {}) helps little{}, its stress is concentrated at {}: several tied "
         "blocks, "
         "small ones there, are needed",
-        block.name(), block.order(),
+        block.name(), block.order(), left_at_highest_order(state),
         block.supported() ? "its supports or at a corner" : "a corner or a small contact");
   }
+  if (state.out_of_reach > 0.0)
+    return fmt::format(
+        "higher orders help little{}, stresses are concentrated at clamps, corners or small "
+        "contacts: several tied blocks, small ones there, are needed",
+        left_at_highest_order(state));
   return "given or highest orders of blocks limit it: higher orders, or smaller tied blocks, are needed";
 }
 
@@ -104,6 +138,11 @@ nlohmann::ordered_json accuracy_summary(const Scene& scene, const Simulation& si
     json["steps_tested"] = state.motion.tests;
     json["steps_with_impacts"] = state.motion.impacts;
     json["error_of_impacts"] = state.motion.impact_error;
+    if (const BoundingIsland& bounding = state.motion.bounding; !bounding.blocks.empty())
+      json["step_bounded_by"] = {{"step", state.motion.shortest_step},
+                                 {"blocks", first_names(simulation, bounding.blocks)},
+                                 {"count", bounding.blocks.size()},
+                                 {"others", bounding.gain}};
   }
   json["advice"] = accuracy_advice(scene, simulation, state);
   return json;

@@ -278,5 +278,51 @@ TEST(StaticAccuracy, ReachesWhatIsAskedOfAClampedPlate) {
   }
 }
 
+/// Clamped at one end, 8 by 1 by 3 m. Its tip's deflection was computed by another program.
+Simulation cantilever(int order) {
+  BlockDefinition block =
+      block_of("beam", Polyhedron(make_box({0, -0.5, -1.5}, {8, 0.5, 1.5})), {3600.0, 1e10, 0.2}, order);
+  block.supports.push_back({Plane{{0, 0, 0}, Vector3::UnitX()}});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(block));
+  return {std::move(blocks), {{}}, same_law({1e9, 1e9, 0.5}), SimulationSettings{}};
+}
+constexpr double tip_by_another_program = -2.7131353e-3;
+
+// The corners of the clamp: an error that falls like the cube of the order cannot be 1e-4 at order 8.
+TEST(StaticAccuracy, EndsEarlyWhereTheHighestOrderWouldNotSuffice) {
+  const GoalValues tip = [](const Simulation& now) {
+    return std::vector<Goal>{{"tip", {place_of(now, 0, {8, 0, 0}).z()}}};
+  };
+  Simulation simulation = cantilever(1);
+  AccuracyRounds rounds;
+  ASSERT_EQ(find_equilibrium(simulation, 1.0, {1e-4, {true}}, tip, rounds, always),
+            StaticStatus::equilibrium);
+  EXPECT_EQ(simulation.blocks()[0].order(), 6);
+  const AccuracyEstimate estimate = accuracy_estimate(tip(simulation), rounds);
+  const double error = std::abs(tip(simulation)[0].values[0] / tip_by_another_program - 1.0);
+  EXPECT_LT(error, 2.0 * estimate.order);
+  EXPECT_GT(error, estimate.order / 3.0);
+  EXPECT_EQ(estimate.slow_block, 0);
+  Simulation highest = cantilever(8);
+  ASSERT_EQ(run_static(highest, 1.0), StaticStatus::equilibrium);
+  const double at_highest = std::abs(tip(highest)[0].values[0] / tip_by_another_program - 1.0);
+  EXPECT_LT(at_highest, 2.0 * estimate.out_of_reach);
+  EXPECT_GT(at_highest, 0.5 * estimate.out_of_reach);
+}
+
+// From an equilibrium of other orders no inertia is needed.
+TEST(StaticAccuracy, ARoundNeedsFewerIterationsThanAnAnalysis) {
+  Simulation simulation = cantilever(2);
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+  const int first = simulation.steps();
+  (void)simulation.change_order(0, 3);
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+  EXPECT_LT(simulation.steps() - first, first / 2);
+  Simulation fresh = cantilever(3);
+  ASSERT_EQ(run_static(fresh, 1.0), StaticStatus::equilibrium);
+  EXPECT_NEAR(place_of(simulation, 0, {8, 0, 0}).z() / place_of(fresh, 0, {8, 0, 0}).z(), 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace ashlar::static_accuracy_test

@@ -72,11 +72,15 @@ TEST_F(AccuracySummary, AdviceIsAboutTheLargestPart) {
   EXPECT_THAT(advice(), HasSubstr("given or highest orders"));
   state_.slow_block = 1;
   EXPECT_THAT(advice(), HasSubstr("a higher order of block box (now 3) helps little"));
+  state_.out_of_reach = 4e-3;
+  EXPECT_THAT(advice(), HasSubstr("helps little (order 8 would leave about 0.004)"));
   state_.sub_face_error = 0.03;
   state_.goals[0] = 0.05;
   EXPECT_THAT(advice(), HasSubstr("contact.chord_tolerance"));
   state_.motion.error = 0.1;
   EXPECT_THAT(advice(), HasSubstr("time_step"));
+  state_.motion.bounding = {{1}, 3.0};
+  EXPECT_THAT(advice(), HasSubstr("the step is bounded by block box, others would allow 3 times the step"));
 }
 
 }  // namespace
