@@ -14,7 +14,11 @@
 namespace ashlar {
 namespace {
 
-std::size_t contact_points(const std::vector<PairRecord>& records) {
+/// On several ranks those of the last step's report: records of other ranks have not been gathered.
+std::size_t contact_points(const Simulation& simulation, bool shared) {
+  const StepReport& report = simulation.report();
+  if (shared) return static_cast<std::size_t>(report.open + report.locked + report.sliding);
+  const std::vector<PairRecord>& records = simulation.contacts();
   return std::accumulate(records.begin(), records.end(), std::size_t{0},
                          [](std::size_t sum, const PairRecord& pair) { return sum + pair.points.size(); });
 }
@@ -46,7 +50,7 @@ void CheckpointSaver::step_taken(const Run& run) {
   if (agreed(schedule_.due(RunClock::now()))) {
     save(run);
     schedule_.saved(RunClock::now());
-  } else if (agreed(contact_points(run.simulation().contacts()) > 2 * contact_points_)) {
+  } else if (agreed(contact_points(run.simulation(), ranks_ != nullptr) > 2 * contact_points_)) {
     // The reserved space may be too small for this state.
     try {
       save(run);
@@ -70,7 +74,7 @@ void CheckpointSaver::save_after_failure(const Run& run) {
 void CheckpointSaver::save(const Run& run) {
   write(run);
   if (!recorder_) return;
-  contact_points_ = contact_points(run.simulation().contacts());
+  contact_points_ = contact_points(run.simulation(), ranks_ != nullptr);
   // A state with twice the contact points, which requires another checkpoint, and the summary fit in beside the
   // present state.
   constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "apps/results/folder/run_checkpoint.hpp"
+#include "apps/results/system/this_process.hpp"
+#include "apps/results/tables/contact_state.hpp"
 #include "apps/run/accuracy_choice.hpp"
 #include "apps/run/answer_search.hpp"
 #include "apps/run/answer_summary.hpp"
@@ -21,6 +23,7 @@
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "geometry/index.hpp"
+#include "solver/ranks/rank_messages.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -98,7 +101,8 @@ void Run::prepare_piece() {
   if (status_) return;
   if (stage() == 1 && !earlier_ && manner_.keeps_history && whole().stage.front().reset_displacement)
     reset_displacement();
-  built_.simulation.gather_results();
+  if (shared()) row_needs_ = values_of_ranks(manner_.ranks->ranks, needs_of(measures_)).front();
+  if (shared()) built_.simulation.gather_results({}, own_contact_counts(simulation()));
   const auto tell_beginning = [this] {
     observers_.tell(&RunObserver::run_begins, *this);
     if (shared() && saver_) saver_->run_begins(*this);
@@ -287,7 +291,7 @@ void Run::draw_onset() {
 
 /// @return false if its results could not be written
 bool Run::accept_step() {
-  built_.simulation.gather_results();
+  if (shared()) gather_due();
   if (manner_.keeps_history) add_row();
   const Stopwatch watch(clock_.output());
   return tell(&RunObserver::step_taken);
@@ -296,7 +300,7 @@ bool Run::accept_step() {
 void Run::end_stage(RunStatus status, std::string message) {
   stage_status_ = status;
   message_ = std::move(message);
-  built_.simulation.gather_results();
+  if (shared()) built_.simulation.gather_results({}, own_contact_counts(simulation()));
   if (!tell(&RunObserver::stage_stops)) return;
   if (status == RunStatus::completed && !answer_.drawn_only()) {
     if (const auto deep = built_.simulation.audit()) {
@@ -322,7 +326,7 @@ void Run::end_stage(RunStatus status, std::string message) {
 void Run::end(RunStatus status) {
   status_ = stage_status_ = status;
   estimate_measures();
-  if (shared()) rank_work_ = work_of_ranks(simulation());
+  if (shared()) rank_work_ = work_of_ranks(simulation(), {processor_time(), peak_memory_bytes()});
   for (auto observer = observers_.all().rbegin(); observer != observers_.all().rend(); ++observer) {
     try {
       (*observer)->run_ends(*this);

@@ -193,6 +193,8 @@ class Run {
   void take_iteration();
   void draw_onset();
   bool accept_step();
+  void gather_due();
+  [[nodiscard]] ResultFolder::Due due() const;
   void end_stage(RunStatus status, std::string message);
   void end(RunStatus status);
   void fail_in_step(const std::exception& error);
@@ -226,6 +228,7 @@ class Run {
   std::vector<std::vector<double>> rows_;
   std::vector<GoalError> measure_errors_;
   std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
+  ResultNeeds row_needs_;            ///< of a row, on processes that share the run
   ContactChanges changes_;           ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;

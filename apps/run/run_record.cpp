@@ -8,6 +8,7 @@
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/folder/run_summary.hpp"
+#include "apps/results/tables/contact_state.hpp"
 #include "apps/results/tables/measure_goals.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
@@ -20,6 +21,7 @@
 #include "apps/run/run_setup.hpp"
 #include "apps/run/stored_run.hpp"
 #include "geometry/index.hpp"
+#include "solver/ranks/rank_messages.hpp"
 #include "solver/state/step_clock.hpp"
 
 namespace ashlar {
@@ -89,6 +91,20 @@ bool Run::told_on_all(bool told) {
   status_ = stage_status_ = RunStatus::failed;
   message_ = "results could not be written";
   return false;
+}
+
+ResultFolder::Due Run::due() const {
+  if (recorder_) return recorder_->due(simulation());
+  return manner_.keeps_history ? ResultFolder::Due::row : ResultFolder::Due::nothing;
+}
+
+/// Gathers results of the last step that the first rank writes.
+void Run::gather_due() {
+  const ResultFolder::Due due = values_of_ranks(manner_.ranks->ranks, this->due()).front();
+  ResultNeeds needs = due == ResultFolder::Due::row ? row_needs_ : ResultNeeds{false, {}, {}};
+  needs.all = due == ResultFolder::Due::frame;
+  built_.simulation.gather_results(
+      needs, due == ResultFolder::Due::nothing ? ShownContacts{} : own_contact_counts(simulation()));
 }
 
 void Run::record(const std::filesystem::path& folder, ClaimPurpose purpose) {

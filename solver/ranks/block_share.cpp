@@ -1,5 +1,7 @@
 #include "solver/ranks/block_share.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,15 +11,32 @@
 namespace ashlar {
 BlockShare::BlockShare(Ranks& ranks, std::vector<int> owners, std::unique_ptr<RankSolver> solver)
     : ranks_(ranks),
-      solver_(solver ? std::move(solver) : make_gathered_solver(ranks)),
+      solver_(std::make_unique<MeasuredSolver>(solver ? std::move(solver) : make_gathered_solver(ranks))),
       owners_(std::move(owners)),
       is_ghost_(owners_.size(), false),
       lent_(at(ranks.count())) {
+  find_own();
+}
+
+void BlockShare::find_own() {
+  own_.clear();
   for (int block = 0; block < count(); ++block) {
-    if (owner(block) < 0 || owner(block) >= ranks.count())
+    if (owner(block) < 0 || owner(block) >= ranks_.count())
       throw std::invalid_argument("block " + std::to_string(block) + " belongs to no rank");
     if (owns(block)) own_.push_back(block);
   }
+}
+
+void BlockShare::set_owners(std::vector<int> owners) {
+  if (owners.size() != owners_.size()) throw std::invalid_argument("owners are not by block");
+  std::vector<int> had;
+  std::merge(own_.begin(), own_.end(), ghosts_.begin(), ghosts_.end(), std::back_inserter(had));
+  owners_ = std::move(owners);
+  find_own();
+  std::erase_if(had, [this](int block) { return owns(block); });
+  ghosts_ = std::move(had);
+  is_ghost_.assign(owners_.size(), false);
+  for (const int block : ghosts_) is_ghost_[at(block)] = true;
 }
 
 void BlockShare::set_ghosts(std::vector<int> ghosts) {

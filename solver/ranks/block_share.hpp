@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "solver/ranks/measured_solver.hpp"
 #include "solver/ranks/placed_volume.hpp"
 #include "solver/ranks/rank_messages.hpp"
-#include "solver/ranks/rank_solver.hpp"
 
 namespace ashlar {
 
@@ -25,7 +25,7 @@ class BlockShare {
   BlockShare(Ranks& ranks, std::vector<int> owners, std::unique_ptr<RankSolver> solver = nullptr);
 
   [[nodiscard]] Ranks& ranks() const { return ranks_; }
-  [[nodiscard]] RankSolver& solver() const { return *solver_; }
+  [[nodiscard]] MeasuredSolver& solver() const { return *solver_; }
   [[nodiscard]] int count() const { return static_cast<int>(owners_.size()); }
   [[nodiscard]] int owner(int block) const { return owners_[static_cast<std::size_t>(block)]; }
   [[nodiscard]] bool owns(int block) const { return owner(block) == ranks_.own(); }
@@ -37,6 +37,9 @@ class BlockShare {
   [[nodiscard]] const std::vector<int>& lent_to(int rank) const {
     return lent_[static_cast<std::size_t>(rank)];
   }
+  /// Gives blocks to other ranks. Those that this rank had, own or ghosts, and does not own now count as ghosts until
+  /// set_ghosts(), which has to follow. @param owners as in the constructor
+  void set_owners(std::vector<int> owners);
   /// Replaces the ghosts of this rank. Collective. @param ghosts blocks of other ranks, increasing
   void set_ghosts(std::vector<int> ghosts);
 
@@ -61,8 +64,10 @@ class BlockShare {
   /// @}
 
  private:
+  void find_own();
+
   Ranks& ranks_;
-  std::unique_ptr<RankSolver> solver_;
+  std::unique_ptr<MeasuredSolver> solver_;
   std::vector<int> owners_;
   std::vector<int> own_;
   std::vector<int> ghosts_;

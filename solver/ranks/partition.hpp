@@ -29,6 +29,14 @@ struct PartitionBlock {
 using Partition =
     std::function<std::vector<int>(Ranks& ranks, const std::vector<PartitionBlock>& own, int blocks)>;
 
+/// When blocks are shared out again in a run (step/rank_balance.hpp).
+struct Rebalancing {
+  Partition partition;   ///< empty: never
+  double beyond = 0.2;   ///< imbalance of the weights of ranks
+  int interval = 100;    ///< steps from one look at it to the next
+  int repartitions = 0;  ///< so far
+};
+
 /// A Partition by centroids alone.
 [[nodiscard]] std::vector<int> partition_by_place(Ranks& ranks, const std::vector<PartitionBlock>& own,
                                                   int blocks);

@@ -21,6 +21,21 @@ struct RankTraffic {
   std::uint64_t messages = 0;  ///< sent to other ranks
   std::uint64_t bytes = 0;     ///< sent to other ranks
   double seconds = 0.0;        ///< wall time in these calls, waiting included
+  double processor = 0.0;      ///< s, processor time of the calling thread in them; waiting may take some
+
+  RankTraffic& operator+=(const RankTraffic& other) {
+    calls += other.calls;
+    messages += other.messages;
+    bytes += other.bytes;
+    seconds += other.seconds;
+    processor += other.processor;
+    return *this;
+  }
+  /// Since an earlier time.
+  [[nodiscard]] RankTraffic since(const RankTraffic& before) const {
+    return {calls - before.calls, messages - before.messages, bytes - before.bytes, seconds - before.seconds,
+            processor - before.processor};
+  }
 };
 
 class Ranks {

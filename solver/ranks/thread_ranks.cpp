@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/processor_watch.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -63,6 +64,7 @@ class ThreadRanks final : public Ranks {
 
   [[nodiscard]] std::vector<Bytes> gather(const Bytes& given) override {
     const Stopwatch watch(traffic_.seconds);
+    const ProcessorWatch processor(traffic_.processor);
     note(count() - 1, given.size() * at(count() - 1));
     place_.given()[at(own_)] = given;
     place_.meet();
@@ -74,6 +76,7 @@ class ThreadRanks final : public Ranks {
 
   [[nodiscard]] std::vector<Bytes> exchange(std::vector<Bytes> messages) override {
     const Stopwatch watch(traffic_.seconds);
+    const ProcessorWatch processor(traffic_.processor);
     for (int rank = 0; rank < count(); ++rank) {
       if (rank != own_ && !messages[at(rank)].empty()) note(1, messages[at(rank)].size());
       place_.message(own_, rank) = std::move(messages[at(rank)]);

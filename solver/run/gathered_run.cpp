@@ -45,7 +45,7 @@ void add(const ContactExtremes& one, ContactExtremes& sum) {
   add_all(one.dilating_slip, sum.dilating_slip);
 }
 
-RunTotals totals_here(const Simulation& simulation) {
+RunTotals totals_here(const Simulation& simulation, const ShownContacts& shown) {
   return {simulation.ledger(),
           simulation.report(),
           {simulation.largest_penetration(), simulation.deepest(), simulation.sliding_friction(),
@@ -53,13 +53,14 @@ RunTotals totals_here(const Simulation& simulation) {
           simulation.momentum(),
           simulation.angular_momentum(),
           simulation.counts(),
-          simulation.unknowns()};
+          simulation.unknowns(),
+          shown};
 }
 
 }  // namespace
 
-RunTotals totals_of_run(const Simulation& simulation) {
-  const RunTotals here = totals_here(simulation);
+RunTotals totals_of_run(const Simulation& simulation, const ShownContacts& shown) {
+  const RunTotals here = totals_here(simulation, shown);
   const BlockShare* share = simulation.system().share();
   if (share == nullptr) return here;
   RunTotals sum;
@@ -71,18 +72,20 @@ RunTotals totals_of_run(const Simulation& simulation) {
     sum.angular_momentum += one.angular_momentum;
     add(one.counts, sum.counts);
     sum.unknowns += one.unknowns;
+    add_all(one.shown, sum.shown);
   }
   return sum;
 }
 
-std::vector<BlockState> states_of_run(const Simulation& simulation) {
+std::vector<BlockState> states_of_run(const Simulation& simulation, const ResultNeeds& needs) {
   const BlockShare* share = simulation.system().share();
   std::vector<BlockState> states = simulation.states();
   if (share == nullptr) return states;
   send_to_first(
       share->ranks(),
       [&](ByteWriter& writer) {
-        for (const int block : share->own()) writer(block, simulation.states()[at(block)]);
+        for (const int block : needs.all ? share->own() : needs.blocks)
+          if (share->owns(block)) writer(block, simulation.states()[at(block)]);
       },
       [&](ByteReader& reader, int) {
         while (!reader.at_end()) {
@@ -95,16 +98,22 @@ std::vector<BlockState> states_of_run(const Simulation& simulation) {
   return states;
 }
 
-std::vector<PairRecord> contacts_of_run(const Simulation& simulation) {
+std::vector<PairRecord> contacts_of_run(const Simulation& simulation, const ResultNeeds& needs) {
   const BlockSystem& system = simulation.system();
   if (system.share() == nullptr) return simulation.contacts();
   std::vector<PairRecord> own;
+  const auto needed = [&](const PairKey& blocks) {
+    return needs.all || std::binary_search(needs.pairs.begin(), needs.pairs.end(), blocks);
+  };
   for (const PairRecord& record : simulation.contacts())
-    if (system.owns_pair(record.a, record.b)) own.push_back(record);
+    if (system.owns_pair(record.a, record.b) && needed({record.a, record.b})) own.push_back(record);
   Ranks& ranks = system.share()->ranks();
   std::vector<PairRecord> all = ranks.own() == 0 ? own : std::vector<PairRecord>();
   send_to_first(
-      ranks, [&](ByteWriter& writer) { writer(own); },
+      ranks,
+      [&](ByteWriter& writer) {
+        if (!own.empty()) writer(own);
+      },
       [&](ByteReader& reader, int) {
         std::vector<PairRecord> others;
         reader(others);
@@ -135,12 +144,22 @@ std::vector<PairBonds> bonds_of_run(const Simulation& simulation) {
   return all;
 }
 
-std::vector<RankWork> work_of_ranks(const Simulation& simulation) {
+std::vector<RankWork> work_of_ranks(const Simulation& simulation, const ProcessUse& use) {
   const BlockSystem& system = simulation.system();
   RankWork work;
   work.seconds = simulation.seconds();
-  for (const PairRecord& record : simulation.contacts())
-    work.pairs += system.owns_pair(record.a, record.b) ? 1 : 0;
+  work.use = use;
+  for (const PairRecord& record : simulation.contacts()) {
+    const auto elsewhere = [&](int block) {
+      return !system.owns(block) && !system.blocks()[at(block)].fixed();
+    };
+    const bool owned = system.owns_pair(record.a, record.b);
+    work.pairs += owned ? 1 : 0;
+    work.border_pairs +=
+        system.concerns(record.a, record.b) && (elsewhere(record.a) || elsewhere(record.b)) ? 1 : 0;
+  }
+  work.unknowns = system.unknowns();
+  work.points = simulation.own_counts().contact_points;
   for (const auto& [blocks, pair] : simulation.histories()) {
     if (!system.owns_pair(blocks[0], blocks[1])) continue;
     work.broken_pairs += pair.broken > 0.0 ? 1 : 0;
@@ -155,6 +174,11 @@ std::vector<RankWork> work_of_ranks(const Simulation& simulation) {
   work.own = static_cast<int>(share->own().size());
   work.ghosts = static_cast<int>(share->ghosts().size());
   work.traffic = share->ranks().traffic();
+  work.shared = share->solver().work();
+  work.for_results = simulation.shared_blocks()->for_results;
+  work.ghost_searches = simulation.shared_blocks()->searches;
+  work.repartitions = simulation.shared_blocks()->balance.repartitions;
+  work.weight = simulation.own_weight();
   return values_of_ranks(share->ranks(), work);
 }
 

@@ -1,4 +1,4 @@
-// Sums and extremes of a run that several ranks share.
+// Sums and extremes of a run that several ranks share, and results of other ranks that the first one needs.
 #pragma once
 
 #include <vector>
@@ -6,6 +6,13 @@
 #include "solver/state/run_state.hpp"
 
 namespace ashlar {
+
+/// Contact points by state, as results show them.
+struct ShownContacts {
+  int open = 0;
+  int locked = 0;
+  int sliding = 0;
+};
 
 struct RunTotals {
   Ledger ledger;
@@ -15,6 +22,14 @@ struct RunTotals {
   Vector3 angular_momentum = Vector3::Zero();  ///< kg m^2/s, about the origin
   SimulationCounts counts;
   int unknowns = 0;
+  ShownContacts shown;
+};
+
+/// Results beyond totals, the same request on all ranks.
+struct ResultNeeds {
+  bool all = true;                  ///< states of all blocks, contacts and bonds of all pairs
+  std::vector<int> blocks = {};     ///< otherwise: states of these, increasing
+  std::vector<PairKey> pairs = {};  ///< and contacts of these, increasing
 };
 
 /// Results of all ranks, on the first one.

@@ -20,10 +20,28 @@
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/agreement.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/rank_balance.hpp"
 #include "solver/step/shared_snapshot.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
 namespace ashlar {
+namespace {
+
+/// Counts messages for results while it exists.
+class TrafficOfResults {
+ public:
+  explicit TrafficOfResults(SharedBlocks& shared)
+      : shared_(shared), before_(shared.share->ranks().traffic()) {}
+  ~TrafficOfResults() { shared_.for_results += shared_.share->ranks().traffic().since(before_); }
+  TrafficOfResults(const TrafficOfResults&) = delete;
+  TrafficOfResults& operator=(const TrafficOfResults&) = delete;
+
+ private:
+  SharedBlocks& shared_;
+  RankTraffic before_;
+};
+
+}  // namespace
 
 Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions,
                        LawOfPair law, const SimulationSettings& settings, const std::vector<TieRequest>& ties,
@@ -73,20 +91,29 @@ RunContext Simulation::context() {
   return {system_, state_, caches_, fault_, shared_.get()};
 }
 
-void Simulation::gather_results() {
+void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& shown) {
   told_.reset();
   if (shared_ == nullptr) return;
-  ToldResults told{totals_of_run(*this), contacts_of_run(*this)};
-  std::vector<BlockState> states = states_of_run(*this);
-  const std::vector<PairBonds> bonds = bonds_of_run(*this);
-  if (system_.share()->ranks().own() != 0) return;
-  if (!shared_->keeps_models) throw std::logic_error("the first rank has no models of blocks elsewhere");
-  state_.states = std::move(states);
-  for (const auto& [blocks, bonded, broken] : bonds) {
-    state_.pairs[blocks].bonded = bonded;
-    state_.pairs[blocks].broken = broken;
+  const TrafficOfResults traffic(*shared_);
+  ToldResults told{totals_of_run(*this, shown), {}};
+  const bool first = system_.share()->ranks().own() == 0;
+  if (needs.all || !needs.pairs.empty()) told.contacts = contacts_of_run(*this, needs);
+  if (needs.all || !needs.blocks.empty()) {
+    std::vector<BlockState> states = states_of_run(*this, needs);
+    if (first) state_.states = std::move(states);
   }
-  told_ = std::move(told);
+  if (needs.all) {
+    const std::vector<PairBonds> bonds = bonds_of_run(*this);
+    if (first && !shared_->keeps_models)
+      throw std::logic_error("the first rank has no models of blocks elsewhere");
+    if (first) {
+      for (const auto& [blocks, bonded, broken] : bonds) {
+        state_.pairs[blocks].bonded = bonded;
+        state_.pairs[blocks].broken = broken;
+      }
+    }
+  }
+  if (first) told_ = std::move(told);
 }
 
 void Simulation::refuse_ranks(const char* what) const {
@@ -270,6 +297,7 @@ ContactExplanation Simulation::explain_contacts(int a, int b) const {
 SimulationSnapshot Simulation::snapshot() const {
   SimulationSnapshot part = snapshot_of(system_, state_, caches_);
   if (shared_ == nullptr) return part;
+  const TrafficOfResults traffic(*shared_);
   return whole_snapshot(system_, std::move(part), told_ ? &told_->totals : nullptr);
 }
 
@@ -306,7 +334,14 @@ Vector3 Simulation::angular_momentum() const {
 }
 
 SimulationCounts Simulation::counts() const {
-  if (told_) return told_->totals.counts;
+  return told_ ? told_->totals.counts : own_counts();
+}
+
+double Simulation::own_weight() const {
+  return shared_ ? weight_of_rank(system_, state_) : 0.0;
+}
+
+SimulationCounts Simulation::own_counts() const {
   return counts_of(state_, caches_);
 }
 

@@ -100,10 +100,14 @@ class Simulation {
   void start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent);
   /// @}
 
-  /// Puts the results of all ranks together on the first one, which has to have the models of all blocks
-  /// (share_blocks): its states(), contacts(), areas of bonds in histories(), report(), ledger() and other sums are
-  /// those of the run until the next step. Collective; no effect without ranks.
-  void gather_results();
+  /// Puts the results of all ranks together on the first one: its report(), ledger() and other sums are those of the run
+  /// until the next step, and so are states(), contacts() and areas of bonds in histories() as far as asked for; contacts()
+  /// are no others. Collective; no effect without ranks.
+  /// @param needs for all, the first rank has to have the models of all blocks (share_blocks)
+  /// @param shown of the pairs that this rank owns
+  void gather_results(const ResultNeeds& needs = {}, const ShownContacts& shown = {});
+  /// Shown contacts of all ranks; null: results have not been gathered, or there are no ranks.
+  [[nodiscard]] const ShownContacts* shown_contacts() const { return told_ ? &told_->totals.shown : nullptr; }
 
   /// True if the remaining time up to `end_time` is within rounding error or less than 1e-9 of a step.
   [[nodiscard]] bool reached(double end_time) const;
@@ -154,7 +158,8 @@ class Simulation {
   void set_chord_tolerance(double tolerance);
 
   /// All data changed since construction (checkpoint.hpp); restore() sets them. On several ranks both are collective
-  /// (step/shared_snapshot.hpp): the first rank has the snapshot of the run after gather_results(), and all restore it.
+  /// (step/shared_snapshot.hpp): the first rank has the snapshot of the run after gather_results(), however little it asked
+  /// for, and all restore it.
   [[nodiscard]] SimulationSnapshot snapshot() const;
   /// @throws std::invalid_argument if the snapshot was taken of other blocks.
   void restore(const SimulationSnapshot& snapshot);
@@ -197,6 +202,12 @@ class Simulation {
   [[nodiscard]] int unknowns() const { return told_ ? told_->totals.unknowns : system_.unknowns(); }
   [[nodiscard]] const std::vector<Rejection>& rejections() const { return state_.log.rejections; }
   [[nodiscard]] SimulationCounts counts() const;
+  /// Of this rank alone; the first one of a resumed run has those of the earlier run, too.
+  [[nodiscard]] SimulationCounts own_counts() const;
+  /// Weight of the blocks of this rank after the last step (step/rank_balance.hpp); 0 without ranks.
+  [[nodiscard]] double own_weight() const;
+  /// Null: one rank has all blocks.
+  [[nodiscard]] const SharedBlocks* shared_blocks() const { return shared_.get(); }
   [[nodiscard]] const PhaseSeconds& seconds() const { return state_.log.seconds; }
 
  private:

@@ -179,6 +179,14 @@ void BlockSystem::set_here(int block, BlockModel model, bool here) {
   moving_[at(block)] = this->here(block) && !blocks_[at(block)].fixed();
   roundoff_force_[at(block)] = moving_[at(block)] ? blocks_[at(block)].force_rounding() : 0.0;
   note_gradients(at(block));
+  // The owner of a free body turns it. Blocks that change their owner are not tied.
+  std::erase_if(free_bodies_, [block](const std::vector<int>& body) { return body.front() == block; });
+  const BlockModel& now = blocks_[at(block)];
+  if (!present(block) || !owns(block) || now.fixed() || now.supported() || now.incremental() != nullptr)
+    return;
+  const auto place = std::find_if(free_bodies_.begin(), free_bodies_.end(),
+                                  [block](const std::vector<int>& body) { return body.front() > block; });
+  free_bodies_.insert(place, {block});
 }
 
 void BlockSystem::carry_on(int block, BlockModel model) {

@@ -14,6 +14,7 @@
 #include "solver/step/ghosts.hpp"
 #include "solver/step/position_projection.hpp"
 #include "solver/step/quiet_release.hpp"
+#include "solver/step/rank_balance.hpp"
 #include "solver/step/restitution.hpp"
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/snapshot.hpp"
@@ -199,6 +200,7 @@ StepStatus take_step(const RunContext& run, double end_time) {
   if (left < step - time_rounding(settings.time_step, end_time)) step = left;
   if (settings.integrator == Integrator::generalized_alpha && state.accelerations.empty())
     state.accelerations = smooth_accelerations(system, state);
+  if (run.shared != nullptr) balance_ranks(*run.shared, system, state, run.caches);
   if (run.shared != nullptr) find_ghosts_for(*run.shared, system, state, run.caches, step);
   wake_for_loads(system, state, step);
   commit_bolts(state);

@@ -150,8 +150,10 @@ void forget_block(int block, RunState& state, StepCaches& caches) {
   caches.audit.forget(at(block));
 }
 
-void set_here(BlockSystem& system, RunState& state, StepCaches& caches, int block, BlockModel model,
-              bool here) {
+}  // namespace
+
+void set_block_here(BlockSystem& system, RunState& state, StepCaches& caches, int block, BlockModel model,
+                    bool here) {
   system.set_here(block, std::move(model), here);
   forget_block(block, state, caches);
   caches.contacts.finder().set_presence(block, system.blocks()[at(block)], system.here(block), state.pairs);
@@ -162,11 +164,10 @@ void set_here(BlockSystem& system, RunState& state, StepCaches& caches, int bloc
   state.sleep.rests[at(block)] = {};
 }
 
-}  // namespace
-
 void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches) {
   BlockShare& share = *shared.share;
   const ContactFinder& finder = caches.contacts.finder();
+  ++shared.searches;
   std::vector<BlockBox> boxes;
   for (const int k : share.own()) {
     if (!system.here(k)) continue;
@@ -189,9 +190,9 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
     for (const int block : come) models.push_back(shared.keeps_models ? known(block) : shared.load(block));
   });
   for (const int block : gone)
-    set_here(system, state, caches, block, shared.keeps_models ? known(block) : placeholder(), false);
+    set_block_here(system, state, caches, block, shared.keeps_models ? known(block) : placeholder(), false);
   for (std::size_t k = 0; k < come.size(); ++k)
-    set_here(system, state, caches, come[k], std::move(models[k]), true);
+    set_block_here(system, state, caches, come[k], std::move(models[k]), true);
   hold_sleepers(system, state.sleep);
   caches.contacts.forget_border_pairs();
   update_ghosts(system, state);

@@ -11,6 +11,7 @@
 
 #include "mechanics/block/block_model.hpp"
 #include "solver/ranks/block_share.hpp"
+#include "solver/ranks/partition.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
 #include "solver/step/step_caches.hpp"
@@ -20,7 +21,7 @@ namespace ashlar {
 /// Makes the model of any block as the run starts.
 using BlockLoader = std::function<BlockModel(int block)>;
 
-/// Blocks of a run that ranks share, beyond their models. Constant but for the margin.
+/// Blocks of a run that ranks share, beyond their models.
 struct SharedBlocks {
   std::unique_ptr<BlockShare> share;
   BlockLoader load;
@@ -28,6 +29,9 @@ struct SharedBlocks {
   double margin = 0.0;             ///< m, by which each block may move before ghosts are found again
   bool keeps_models = false;       ///< this rank keeps the models of all blocks, for results
   std::vector<double> paths = {};  ///< by block, m: ContactFinder::path() when ghosts were found
+  RankTraffic for_results = {};    ///< messages of results and snapshots
+  int searches = 0;                ///< for ghosts, after the first one
+  Rebalancing balance = {};
 };
 
 /// The blocks of one rank at the start of a run.
@@ -44,6 +48,11 @@ struct BlocksOfRank {
                                         const SimulationSettings& settings, std::vector<bool> absent = {},
                                         std::unique_ptr<RankSolver> solver = nullptr,
                                         bool keeps_models = false);
+
+/// Makes a block one of those that this rank has, or takes it from them: it forgets the block's contacts. Sums over the
+/// run stay. @param model of the block; of one that is elsewhere any
+void set_block_here(BlockSystem& system, RunState& state, StepCaches& caches, int block, BlockModel model,
+                    bool here);
 
 /// Finds ghosts again, by the present state. Collective.
 void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches);

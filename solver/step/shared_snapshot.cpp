@@ -38,6 +38,9 @@ void keep_own_pairs(const BlockSystem& system, RunState& run) {
 void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
   for (int block = 0; block < share.count(); ++block)
     if (share.owner(block) == rank) take_block(block, part, whole);
+  // All ranks list the same islands, each with the energy that it holds.
+  for (std::size_t k = 0; k < whole.run.sleep.islands.size(); ++k)
+    whole.run.sleep.islands[k].held += part.run.sleep.islands.at(k).held;
   whole.run.pairs.merge(part.run.pairs);
   whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
 }
@@ -69,6 +72,7 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
   // Depths are measured anew.
   part.run.depths = state.depths;
   if (first) return part;
+  for (SleepingIsland& island : part.run.sleep.islands) island.held = 0.0;
   part.run.ledger.set({}, 0.0);
   part.run.report = {};
   part.run.report.step = whole.run.report.step;

@@ -1,4 +1,4 @@
-// Keys `ranks` and `rank_imbalance` of summary.json: work and traffic of the processes that shared a run.
+// Keys `ranks`, `rank_imbalance` and `repartitions` of summary.json: work and traffic of the processes that shared a run.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,13 +9,14 @@
 
 namespace ashlar {
 
-/// Largest time of a rank for its own work relative to the mean, minus 1: messages and waiting are not counted.
+/// Largest processor time of a rank for its own part relative to the mean, minus 1: messages, waiting and shared systems
+/// are not counted.
 [[nodiscard]] double time_imbalance(const std::vector<RankWork>& ranks);
 
 /// Failed joints of all ranks.
 [[nodiscard]] BrokenJoints broken_joints(const std::vector<RankWork>& ranks);
 
-/// Adds both keys. @param ranks by rank
+/// Adds these keys. @param ranks by rank
 void add_ranks(nlohmann::ordered_json& summary, const std::vector<RankWork>& ranks);
 
 }  // namespace ashlar

@@ -130,6 +130,11 @@ void ResultFolder::check_in_place() const {
   frames_->check_in_place();
 }
 
+ResultFolder::Due ResultFolder::due(const Simulation& simulation) const {
+  if (frame_is_due(simulation)) return Due::frame;
+  return simulation.steps() % output_.history_every == 0 ? Due::row : Due::nothing;
+}
+
 void ResultFolder::add_step(const Simulation& simulation) {
   check_in_place();
   if (simulation.steps() % output_.history_every == 0) add_row(simulation);

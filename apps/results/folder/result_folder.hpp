@@ -68,6 +68,9 @@ class ResultFolder {
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                const ResultFolderState& state);
 
+  /// Files that add_step() adds to.
+  enum class Due { nothing, row, frame };
+  [[nodiscard]] Due due(const Simulation& simulation) const;
   /// Adds the last accepted step. Data that cannot be written are not in state() either.
   /// @throws std::runtime_error also if a table or the folder of frames no longer exists, or was changed by others
   void add_step(const Simulation& simulation);

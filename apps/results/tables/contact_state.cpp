@@ -93,9 +93,15 @@ std::vector<ContactState> shown_states(const Simulation& simulation, const PairR
   return states;
 }
 
-ContactCounts contact_counts(const Simulation& simulation) {
-  ContactCounts counts;
+ShownContacts contact_counts(const Simulation& simulation) {
+  const ShownContacts* of_all = simulation.shown_contacts();
+  return of_all != nullptr ? *of_all : own_contact_counts(simulation);
+}
+
+ShownContacts own_contact_counts(const Simulation& simulation) {
+  ShownContacts counts;
   for (const PairRecord& record : simulation.contacts()) {
+    if (!simulation.system().owns_pair(record.a, record.b)) continue;
     for (const ContactState state : shown_states(simulation, record))
       ++(state == ContactState::open     ? counts.open
          : state == ContactState::locked ? counts.locked

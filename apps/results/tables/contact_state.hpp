@@ -24,10 +24,9 @@ inline constexpr double joint_limit_share = 0.99;
 /// States of the points of a pair.
 [[nodiscard]] std::vector<ContactState> shown_states(const Simulation& simulation, const PairRecord& record);
 
-struct ContactCounts {
-  int open = 0, locked = 0, sliding = 0;
-};
-/// Of all contact points, as shown.
-[[nodiscard]] ContactCounts contact_counts(const Simulation& simulation);
+/// Of all contact points, as shown; of a run that ranks share those of the results gathered last, if they are known.
+[[nodiscard]] ShownContacts contact_counts(const Simulation& simulation);
+/// Of the pairs that this rank owns.
+[[nodiscard]] ShownContacts own_contact_counts(const Simulation& simulation);
 
 }  // namespace ashlar

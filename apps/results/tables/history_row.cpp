@@ -104,7 +104,7 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
                  ledger.damping, ledger.applied, ledger.numerical, ledger.residual});
   append(values, simulation.momentum());
   append(values, simulation.angular_momentum());
-  const ContactCounts counts = contact_counts(simulation);
+  const ShownContacts counts = contact_counts(simulation);
   for (const int count : {counts.open, counts.locked, counts.sliding}) values.push_back(count);
   values.push_back(report.depth);
   values.push_back(report.iterations);

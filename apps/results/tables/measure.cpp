@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "geometry/index.hpp"
 
@@ -55,6 +56,26 @@ std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockMode
       measures.push_back({given.name, Measure::Kind::block, block, blocks[at(block)].basis().centroid(), -1});
   }
   return measures;
+}
+
+ResultNeeds needs_of(const std::vector<Measure>& measures) {
+  std::set<int> blocks;
+  std::set<PairKey> pairs;
+  for (const Measure& measure : measures) {
+    if (measure.levels != nullptr) {
+      for (const auto& level : measure.levels->places)
+        for (const DriftLevels::Place& place : level) blocks.insert(place.block);
+    } else if (measure.joints != nullptr) {
+      for (const JointPolygons::Polygon& polygon : measure.joints->polygons)
+        blocks.insert(polygon.blocks.begin(), polygon.blocks.end());
+    } else if (measure.kind != Measure::Kind::bolt) {
+      blocks.insert(measure.block);
+    }
+    if (measure.kind != Measure::Kind::pair) continue;
+    blocks.insert(measure.other);
+    pairs.insert({std::min(measure.block, measure.other), std::max(measure.block, measure.other)});
+  }
+  return {false, {blocks.begin(), blocks.end()}, {pairs.begin(), pairs.end()}};
 }
 
 PointMotion measured_motion(const Simulation& simulation, const Measure& measure) {

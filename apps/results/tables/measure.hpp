@@ -34,6 +34,9 @@ struct Measure {
 /// Measures of a scene, in its order. @param blocks of the scene
 [[nodiscard]] std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks);
 
+/// Results of other ranks that measures are evaluated from: states of their blocks, and contacts of measured pairs.
+[[nodiscard]] ResultNeeds needs_of(const std::vector<Measure>& measures);
+
 /// Motion of the measured point; nan if its block is absent. @param measure of a point or block
 [[nodiscard]] PointMotion measured_motion(const Simulation& simulation, const Measure& measure);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/processor_watch.hpp"
 
 namespace ashlar {
 namespace {
@@ -39,7 +40,10 @@ class MpiRanks final : public Ranks {
   /// Counts a call and its time.
   class Call {
    public:
-    explicit Call(RankTraffic& traffic) : traffic_(traffic), begin_(MPI_Wtime()) { ++traffic.calls; }
+    explicit Call(RankTraffic& traffic)
+        : traffic_(traffic), begin_(MPI_Wtime()), processor_(traffic.processor) {
+      ++traffic.calls;
+    }
     ~Call() { traffic_.seconds += MPI_Wtime() - begin_; }
     Call(const Call&) = delete;
     Call& operator=(const Call&) = delete;
@@ -47,6 +51,7 @@ class MpiRanks final : public Ranks {
    private:
     RankTraffic& traffic_;
     double begin_;
+    ProcessorWatch processor_;
   };
 
   [[nodiscard]] std::vector<MPI_Request> send(const std::vector<Bytes>& messages, int tag);
