@@ -29,9 +29,7 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const std::string joint = fmt::format("joint.{}", k);
     refuse(scene.joint[k].tied.value_or(false), joint + ".tied", "blocks tied to each other");
-    refuse(scene.joint[k].restitution.has_value(), joint + ".restitution", "a coefficient of restitution");
   }
-  refuse(scene.contact.law.restitution.has_value(), "contact.restitution", "a coefficient of restitution");
 }
 
 }  // namespace ashlar
