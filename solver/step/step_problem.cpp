@@ -73,10 +73,8 @@ std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& 
 
 /// Gets the changes of ghosts. @return the worst status of any rank
 IslandStatus agree_on_end(const BlockSystem& system, IslandStatus status, std::vector<BodyStep>& bodies) {
-  const BlockShare& share = *system.share();
-  share.to_ghosts([&](int block) { return system.moving()[at(block)] ? &bodies[at(block)].change : nullptr; },
-                  [&](int block, Eigen::VectorXd change) { bodies[at(block)].change = std::move(change); });
-  return static_cast<IslandStatus>(max_of_ranks(share.ranks(), static_cast<double>(status)));
+  update_ghost_changes(system, bodies);
+  return static_cast<IslandStatus>(max_of_ranks(system.share()->ranks(), static_cast<double>(status)));
 }
 
 }  // namespace
@@ -93,8 +91,9 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   pose_step(system, state, scheme, problem);
   problem.results = solve_islands(problem, scheme, system.settings(), factors);
   if (problem.shared >= 0)
-    problem.results[at(problem.shared)] = solve_shared_island(system, problem.islands[at(problem.shared)],
-                                                              problem.bodies, problem.pairs, scheme);
+    problem.results[at(problem.shared)] =
+        solve_shared_island(system, problem.islands[at(problem.shared)], problem.bodies, problem.pairs,
+                            scheme, system.settings());
   SimulationCounts& counts = state.log.counts;
   IslandStatus status = IslandStatus::converged;
   for (IslandResult& result : problem.results) {

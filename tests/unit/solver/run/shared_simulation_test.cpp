@@ -1,21 +1,24 @@
 // Simulations whose blocks several ranks share.
 #include <array>
 
-#include "unit/solver/run/shared_runs.hpp"
+#include "support/shared_runs.hpp"
 
 namespace ashlar::shared_simulation_test {
 namespace {
 
-using namespace shared_runs;
+using test_support::advance;
 using test_support::block_of;
+using test_support::distance;
+using test_support::End;
 using test_support::fixed_box;
-
-bool same_bits(const End& a, const End& b) {
-  for (std::size_t k = 0; k < a.states.size(); ++k)
-    if (a.states[k].position != b.states[k].position || a.states[k].velocity != b.states[k].velocity)
-      return false;
-  return a.states.size() == b.states.size() && a.totals.ledger.balance() == b.totals.ledger.balance();
-}
+using test_support::joint;
+using test_support::owners_of;
+using test_support::pile;
+using test_support::run_alone;
+using test_support::run_shared;
+using test_support::same_bits;
+using test_support::Scene;
+using test_support::wall;
 
 TEST(SharedSimulation, OneRankHasTheBitsOfNone) {
   const Scene scene = pile(4, 1);
@@ -172,9 +175,6 @@ TEST(SharedSimulation, StepsAreCutAlike) {
 
 TEST(SharedSimulation, RefusesWhatSeveralRanksCannotDo) {
   const Scene scene = wall(2, 2);
-  Scene multipliers = scene;
-  multipliers.settings.augmented = true;
-  EXPECT_THROW(run_shared(multipliers, owners_of(scene, 2), 2, 1), std::invalid_argument);
   EXPECT_THROW(run_on_threads(2,
                               [&](Ranks& own) {
                                 const auto load = [&](int block) -> BlockModel {

@@ -2,14 +2,24 @@
 #include "solver/step/rank_balance.hpp"
 
 #include "solver/step/snapshot.hpp"
-#include "unit/solver/run/shared_runs.hpp"
+#include "support/shared_runs.hpp"
 
 namespace ashlar::rank_balance_test {
 namespace {
 
-using namespace shared_runs;
+using test_support::advance;
 using test_support::block_of;
+using test_support::distance;
+using test_support::End;
+using test_support::end_of;
 using test_support::fixed_box;
+using test_support::joint;
+using test_support::owners_of;
+using test_support::pile;
+using test_support::run_alone;
+using test_support::run_shared;
+using test_support::Scene;
+using test_support::wall;
 
 /// All on the first rank.
 std::vector<int> first_has_all(const Scene& scene) {

@@ -1,10 +1,9 @@
-// Scenes of tests with several ranks, run alone and on ranks that are threads.
+// Scenes whose blocks several ranks share, as threads, and the ends of their runs.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <random>
 #include <vector>
@@ -14,16 +13,14 @@
 #include "solver/run/gathered_run.hpp"
 #include "support/simulations.hpp"
 
-namespace ashlar::shared_runs {
-
-using test_support::block_of;
-using test_support::fixed_box;
+namespace ashlar::test_support {
 
 struct Scene {
   std::vector<BlockDefinition> blocks;
   std::vector<InitialMotion> motions;
   JointLaw law;
   SimulationSettings settings;
+  std::vector<TieRequest> ties = {};
 };
 
 inline JointLaw joint(double friction) {
@@ -53,7 +50,8 @@ inline Scene wall(int courses, int bricks, int order = 1) {
 }
 
 /// Turned boxes above a fixed base that fall on each other. @param order of the blocks
-inline Scene pile(int layers, int order) {
+/// @param along,above distance of their middles, m: boxes do not overlap from 0.6 and 0.38 m on
+inline Scene pile(int layers, int order, double along = 0.45, double above = 0.34) {
   Scene scene;
   scene.law = joint(0.5);
   scene.settings.time_step = 2e-3;
@@ -63,12 +61,12 @@ inline Scene pile(int layers, int order) {
   std::uniform_real_distribution<double> part(-1.0, 1.0);
   for (int layer = 0; layer < layers; ++layer) {
     for (int k = 0; k < 5; ++k) {
-      const Vector3 middle(0.45 * k + 0.05 * part(random), 0.05 * part(random), 0.2 + 0.34 * layer);
+      const Vector3 middle(along * k + 0.05 * part(random), 0.05 * part(random), 0.2 + above * layer);
       const Vector3 half(0.2, 0.15, 0.12);
       const Eigen::AngleAxisd turn(0.3 * part(random), Vector3(part(random), 1.0, 0.2).normalized());
-      scene.blocks.push_back(block_of(
-          "stone", test_support::turned(Polyhedron(make_box(middle - half, middle + half)), turn, middle),
-          {2500, 1e9, 0.2}, order));
+      scene.blocks.push_back(
+          block_of("stone", turned(Polyhedron(make_box(middle - half, middle + half)), turn, middle),
+                   {2500, 1e9, 0.2}, order));
     }
   }
   scene.motions.resize(scene.blocks.size());
@@ -117,7 +115,7 @@ inline End end_of(const Simulation& simulation) {
 inline End run_alone(const Scene& scene, int steps) {
   std::vector<BlockModel> blocks;
   for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation simulation(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
+  Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings, scene.ties);
   EXPECT_TRUE(advance(simulation, steps));
   return end_of(simulation);
 }
@@ -130,8 +128,7 @@ inline End run_shared(const Scene& scene, const std::vector<int>& owners, int ra
     const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
     BlocksOfRank blocks = share_blocks(own, owners, load, scene.settings);
     if (prepare) prepare(*blocks.shared);
-    Simulation simulation(std::move(blocks), scene.motions, test_support::same_law(scene.law),
-                          scene.settings);
+    Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings, scene.ties);
     EXPECT_TRUE(advance(simulation, steps));
     End here = end_of(simulation);
     if (own.own() == 0) end = std::move(here);
@@ -147,4 +144,11 @@ inline double distance(const End& a, const End& b) {
   return most;
 }
 
-}  // namespace ashlar::shared_runs
+inline bool same_bits(const End& a, const End& b) {
+  for (std::size_t k = 0; k < a.states.size(); ++k)
+    if (a.states[k].position != b.states[k].position || a.states[k].velocity != b.states[k].velocity)
+      return false;
+  return a.states.size() == b.states.size() && a.totals.ledger.balance() == b.totals.ledger.balance();
+}
+
+}  // namespace ashlar::test_support
