@@ -193,6 +193,7 @@ class Run {
   void take_iteration();
   void draw_onset();
   bool accept_step();
+  bool record_step();
   void end_stage(RunStatus status, std::string message);
   void end(RunStatus status);
   void fail_in_step(const std::exception& error);

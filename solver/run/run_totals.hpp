@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/state/run_state.hpp"
+#include "solver/statics/static_analysis.hpp"
 
 namespace ashlar {
 
@@ -21,6 +22,7 @@ struct RunTotals {
 struct ToldResults {
   RunTotals totals;
   std::vector<PairRecord> contacts;  ///< by blocks
+  std::vector<MovingBlock> moving;   ///< Simulation::moving_blocks(), by block
 };
 
 }  // namespace ashlar

@@ -12,8 +12,10 @@
 #include "solver/run/contact_explanation.hpp"
 #include "solver/run/gathered_run.hpp"
 #include "solver/run/stage_start.hpp"
+#include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/rigid_verdict.hpp"
+#include "solver/statics/shared_verdict.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
@@ -76,7 +78,7 @@ RunContext Simulation::context() {
 void Simulation::gather_results() {
   told_.reset();
   if (shared_ == nullptr) return;
-  ToldResults told{totals_of_run(*this), contacts_of_run(*this)};
+  ToldResults told{totals_of_run(*this), contacts_of_run(*this), moving_of_run(system_, state_)};
   std::vector<BlockState> states = states_of_run(*this);
   const std::vector<PairBonds> bonds = bonds_of_run(*this);
   if (system_.share()->ranks().own() != 0) return;
@@ -191,7 +193,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
 
 StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
   refuse_late("start_from_statics");
-  refuse_ranks("starts from statics");
+  told_.reset();
   return ashlar::start_from_statics(context(), goes_on);
 }
 
@@ -215,11 +217,14 @@ StaticStatus Simulation::static_step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time, double far) {
-  refuse_ranks("static analyses");
+  told_.reset();
   wake_all(system_, state_);
   const StaticStatus status = ashlar::static_step(context(), end_time, far);
   const bool ended = status == StaticStatus::equilibrium || status == StaticStatus::not_converged;
-  return ended ? rigid_verdict(system_, state_, end_time, status) : status;
+  if (!ended) return status;
+  if (shared_ != nullptr && !system_.share()->ranks().alone())
+    return shared_verdict(context(), end_time, status);
+  return rigid_verdict(system_, state_, end_time, status);
 }
 
 void Simulation::wake() {
@@ -227,7 +232,9 @@ void Simulation::wake() {
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
-  return ashlar::moving_blocks(system_, state_);
+  if (told_) return told_->moving;
+  const auto [first, later] = ashlar::moving_blocks(system_, state_);
+  return first.empty() ? later : first;
 }
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {

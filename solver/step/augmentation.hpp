@@ -14,7 +14,9 @@ class Augmentation {
  public:
   /// Stiffens springs as the balanced forces require, or lowers multipliers if no spring is too soft.
   /// @param problem the same in each call. @return true if anything has changed
-  bool adjust(IslandProblem& problem) { return stiffen(problem) || lower_multipliers(problem); }
+  bool adjust(IslandProblem& problem) {
+    return problem.ranks().any(stiffen(problem)) || problem.ranks().any(lower_multipliers(problem));
+  }
 
  private:
   /// Stiffens springs beside multipliers as the change of force in the step requires. @return true if any were too

@@ -174,7 +174,7 @@ std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
 
 IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
                                  std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-                                 const TimeScheme& scheme) {
+                                 const TimeScheme& scheme, const SimulationSettings& settings) {
   const BlockShare& share = *system.share();
   std::map<int, int> place;
   std::vector<int> sizes, starts = {0};
@@ -196,7 +196,7 @@ IslandResult solve_shared_island(const BlockSystem& system, const Island& island
   IslandSolvers::Entry solver{sizes, links, BlockMatrix(sizes, links),
                               std::make_unique<SharedIslandSolver>(share, island, bodies, starts, ranks)};
   IslandResult result;
-  IslandProblem problem(island, bodies, pairs, scheme, system.settings(), solver, ranks);
+  IslandProblem problem(island, bodies, pairs, scheme, settings, solver, ranks);
   iterate_open_close(problem, result);
   return result;
 }

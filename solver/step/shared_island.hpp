@@ -23,9 +23,10 @@ namespace ashlar {
                                               const std::vector<ContactPair>& pairs);
 
 /// Solves the joined island. Collective; the status is the same on all ranks.
+/// @param settings the same on all ranks
 [[nodiscard]] IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
                                                std::vector<BodyStep>& bodies,
                                                const std::vector<ContactPair>& pairs,
-                                               const TimeScheme& scheme);
+                                               const TimeScheme& scheme, const SimulationSettings& settings);
 
 }  // namespace ashlar

@@ -93,8 +93,9 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   pose_step(system, state, scheme, problem);
   problem.results = solve_islands(problem, scheme, system.settings(), factors);
   if (problem.shared >= 0)
-    problem.results[at(problem.shared)] = solve_shared_island(system, problem.islands[at(problem.shared)],
-                                                              problem.bodies, problem.pairs, scheme);
+    problem.results[at(problem.shared)] =
+        solve_shared_island(system, problem.islands[at(problem.shared)], problem.bodies, problem.pairs,
+                            scheme, system.settings());
   SimulationCounts& counts = state.log.counts;
   IslandStatus status = IslandStatus::converged;
   for (IslandResult& result : problem.results) {
