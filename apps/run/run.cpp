@@ -145,7 +145,7 @@ bool Run::choose_accuracy() {
 /// @return false if the run has ended with it
 bool Run::start_statically() {
   if (!starts_from_statics(scene()) || earlier_) return true;
-  const StaticStart start = start_in_statics(built_.simulation, [this] { return observers_.go_on(); });
+  const StaticStart start = start_in_statics(built_.simulation, [this] { return goes_on(); });
   message_ = start.message;
   if (start.end == StaticStart::End::failed) status_ = RunStatus::failed;
   if (start.end == StaticStart::End::interrupted) status_ = RunStatus::interrupted;
@@ -248,7 +248,7 @@ void Run::take_step() {
 }
 
 void Run::take_iteration() {
-  if (!observers_.go_on()) return interrupt();
+  if (!goes_on()) return interrupt();
   Simulation& simulation = built_.simulation;
   const double end_time = scene().analysis.end_time;
   const int before = simulation.steps();
@@ -258,11 +258,14 @@ void Run::take_iteration() {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
+    if (shared()) throw;  // other ranks may wait for this one
     return fail_in_step(error);
   }
+  if (shared() && (simulation.steps() > before || found != StaticStatus::balancing))
+    simulation.gather_results({}, own_contact_counts(simulation));
   if (simulation.steps() > before) {
     changes_.note(simulation);
-    if (!accept_step()) return;
+    if (!record_step()) return;
   }
   switch (found) {
     case StaticStatus::balancing:
@@ -292,6 +295,10 @@ void Run::draw_onset() {
 /// @return false if its results could not be written
 bool Run::accept_step() {
   if (shared()) gather_due();
+  return record_step();
+}
+
+bool Run::record_step() {
   if (manner_.keeps_history) add_row();
   const Stopwatch watch(clock_.output());
   return tell(&RunObserver::step_taken);
@@ -391,10 +398,6 @@ void Run::add_row() {
   rows_.push_back({static_cast<double>(simulation().steps())});
   const std::vector<double> values = history_row(simulation(), measures_, place_.origin, stage());
   rows_.back().insert(rows_.back().end(), values.begin(), values.end());
-}
-
-FinishedStage Run::finished(RunStatus status) const {
-  return {to_string(status), message_, simulation().steps(), simulation().time()};
 }
 
 }  // namespace ashlar

@@ -195,6 +195,7 @@ class Run {
   bool accept_step();
   void gather_due();
   [[nodiscard]] ResultFolder::Due due() const;
+  bool record_step();
   void end_stage(RunStatus status, std::string message);
   void end(RunStatus status);
   void fail_in_step(const std::exception& error);

@@ -218,7 +218,13 @@ GoalValues Run::goals_of_measures() const {
   return [this](const Simulation& now) { return goals_of(now, measures_); };
 }
 
+FinishedStage Run::finished(RunStatus status) const {
+  return {to_string(status), message_, simulation().steps(), simulation().time()};
+}
+
 void Run::estimate_measures() {
+  // A rank knows the contacts of its own blocks only.
+  if (shared()) return;
   if (scene().analysis.type == SceneAnalysis::Type::statics && status_ == RunStatus::equilibrium &&
       !whole().analysis.accuracy)
     measure_errors_ = goal_errors(simulation(), goals_of_measures());

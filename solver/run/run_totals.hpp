@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/state/run_state.hpp"
+#include "solver/statics/static_analysis.hpp"
 
 namespace ashlar {
 
@@ -36,6 +37,7 @@ struct ResultNeeds {
 struct ToldResults {
   RunTotals totals;
   std::vector<PairRecord> contacts;  ///< by blocks
+  std::vector<MovingBlock> moving;   ///< Simulation::moving_blocks(), by block
 };
 
 }  // namespace ashlar

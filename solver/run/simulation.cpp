@@ -12,8 +12,10 @@
 #include "solver/run/contact_explanation.hpp"
 #include "solver/run/gathered_run.hpp"
 #include "solver/run/stage_start.hpp"
+#include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/rigid_verdict.hpp"
+#include "solver/statics/shared_verdict.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
@@ -94,7 +96,7 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
   told_.reset();
   if (shared_ == nullptr) return;
   const TrafficOfResults traffic(*shared_);
-  ToldResults told{totals_of_run(*this, shown), {}};
+  ToldResults told{totals_of_run(*this, shown), {}, {}};
   const bool first = system_.share()->ranks().own() == 0;
   if (needs.all || !needs.pairs.empty()) told.contacts = contacts_of_run(*this, needs);
   if (needs.all || !needs.blocks.empty()) {
@@ -102,6 +104,7 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
     if (first) state_.states = std::move(states);
   }
   if (needs.all) {
+    told.moving = moving_of_run(system_, state_);
     const std::vector<PairBonds> bonds = bonds_of_run(*this);
     if (first && !shared_->keeps_models)
       throw std::logic_error("the first rank has no models of blocks elsewhere");
@@ -217,7 +220,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
 
 StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
   refuse_late("start_from_statics");
-  refuse_ranks("starts from statics");
+  told_.reset();
   return ashlar::start_from_statics(context(), goes_on);
 }
 
@@ -241,11 +244,14 @@ StaticStatus Simulation::static_step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time, double far) {
-  refuse_ranks("static analyses");
+  told_.reset();
   wake_all(system_, state_);
   const StaticStatus status = ashlar::static_step(context(), end_time, far);
   const bool ended = status == StaticStatus::equilibrium || status == StaticStatus::not_converged;
-  return ended ? rigid_verdict(system_, state_, end_time, status) : status;
+  if (!ended) return status;
+  if (shared_ != nullptr && !system_.share()->ranks().alone())
+    return shared_verdict(context(), end_time, status);
+  return rigid_verdict(system_, state_, end_time, status);
 }
 
 void Simulation::wake() {
@@ -253,7 +259,9 @@ void Simulation::wake() {
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
-  return ashlar::moving_blocks(system_, state_);
+  if (told_) return told_->moving;
+  const auto [first, later] = ashlar::moving_blocks(system_, state_);
+  return first.empty() ? later : first;
 }
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {

@@ -53,9 +53,10 @@ class Simulation {
   Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
              std::vector<bool> absent = {});
-  /// The part of one rank in a simulation that several ranks share (step/ghosts.hpp, notes/ranks.md): dynamics of
-  /// contacts with springs or multipliers. Steps are then collective, and have the same status on all ranks. Sums over blocks, pairs
-  /// and points are those of this rank; gathered_run.hpp has those of the run.
+  /// The part of one rank in a simulation that several ranks share (step/ghosts.hpp, notes/ranks.md): dynamics and
+  /// statics of contacts with springs or multipliers. Steps, iterations and starts from statics are then collective,
+  /// and have the same status on all ranks. Sums over blocks, pairs and points are those of this rank;
+  /// gathered_run.hpp has those of the run.
   /// @param blocks share_blocks(). Others as above, the same on all ranks
   /// @throws std::invalid_argument for what several ranks cannot do yet
   Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
@@ -90,7 +91,7 @@ class Simulation {
 
   /// Moves the blocks to their equilibrium under gravity and the loads at time 0, with contacts, by a static
   /// analysis, and then sets their initial velocities (static_start.hpp).
-  /// @param goes_on called before each iteration: false ends the analysis
+  /// @param goes_on called before each iteration: false ends the analysis; the same on all ranks
   /// @return status of the analysis, balancing if it was ended; unless it is equilibrium all blocks are as placed
   [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& goes_on = [] { return true; });
 
@@ -129,12 +130,14 @@ class Simulation {
   [[nodiscard]] RigidModel rigid_model(double end_time, const std::vector<bool>& multiplied = {}) const;
   /// Places blocks elsewhere, at rest and without contacts, as a step of its own: to display the onset of motion.
   void displace(const std::vector<RigidDisplacement>& displacements);
-  /// Blocks that a static analysis found to be moving, including blocks carried along.
+  /// Blocks that a static analysis found to be moving, including blocks carried along. On several ranks those of this
+  /// one, on the first one after gather_results() those of all.
   [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
   /// Wakes sleeping blocks (step/sleeping_islands.hpp). To be called when joint laws have changed.
   void wake();
   /// Sets of blocks in contact with each other that no fixed block, contact or support restrains: no static analysis
-  /// can hold them. Includes single blocks whose supports allow any rigid motion.
+  /// can hold them. Includes single blocks whose supports allow any rigid motion. On several ranks collective, and the
+  /// same on all.
   [[nodiscard]] std::vector<std::vector<int>> loose_blocks();
 
   /// Multiplies a load of a block by a factor in addition to its history, from the next step on. A static analysis

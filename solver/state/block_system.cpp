@@ -176,7 +176,7 @@ void BlockSystem::replace(int block, BlockModel model) {
 void BlockSystem::set_here(int block, BlockModel model, bool here) {
   blocks_[at(block)] = std::move(model);
   away_[at(block)] = absent_[at(block)] || !here;
-  moving_[at(block)] = this->here(block) && !blocks_[at(block)].fixed();
+  moving_[at(block)] = this->here(block) && !blocks_[at(block)].fixed() && !loose_.contains(block);
   roundoff_force_[at(block)] = moving_[at(block)] ? blocks_[at(block)].force_rounding() : 0.0;
   note_gradients(at(block));
   // The owner of a free body turns it. Blocks that change their owner are not tied.
@@ -224,7 +224,18 @@ void BlockSystem::hold(const std::vector<int>& blocks) {
 
 void BlockSystem::let_go() {
   moving_.clear();
-  for (int k = 0; k < count(); ++k) moving_.push_back(!blocks_[at(k)].fixed() && here(k));
+  for (int k = 0; k < count(); ++k)
+    moving_.push_back(!blocks_[at(k)].fixed() && here(k) && !loose_.contains(k));
+}
+
+void BlockSystem::hold_loose(const std::vector<int>& blocks) {
+  loose_.insert(blocks.begin(), blocks.end());
+  hold(blocks);
+}
+
+void BlockSystem::let_go_loose() {
+  loose_.clear();
+  let_go();
 }
 
 void BlockSystem::note_gradients(std::size_t k) {

@@ -119,6 +119,9 @@ class BlockSystem {
   /// Holds blocks as if they were fixed until let_go().
   void hold(const std::vector<int>& blocks);
   void let_go();
+  /// Holds blocks until let_go_loose(), also those that are not here yet: those without support in statics.
+  void hold_loose(const std::vector<int>& blocks);
+  void let_go_loose();
 
  private:
   void note_gradients(std::size_t block);
@@ -128,6 +131,7 @@ class BlockSystem {
   std::vector<bool> away_;
   BlockShare* share_;
   std::vector<bool> moving_;
+  std::set<int> loose_;     ///< blocks of hold_loose()
   std::vector<int> quiet_;  ///< increasing
   LawOfPair law_;
   SimulationSettings settings_;

@@ -7,6 +7,7 @@
 #include "geometry/index.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
+#include "solver/step/agreement.hpp"
 
 namespace ashlar {
 namespace {
@@ -34,14 +35,17 @@ class MotionExtrapolation {
       if (!system.moving()[k]) continue;
       const BodyStep& body = problem.bodies[k];
       displacements_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
-      goes_[k] = !held[k] && residual_is_constant(k);
+      goes_[k] = system.owns(static_cast<int>(k)) && !held[k] && residual_is_constant(k);
     }
     // A slack bolt may become taut on the way.
     for (const Island& island : problem.islands)
       if (!island.bolts.empty())
         for (const int block : island.bodies) goes_[at(block)] = false;
+    if (system.share() != nullptr && any_of_run(system, any())) goes_ = any_of_run(system, goes_);
+    stopped_.assign(goes_.size(), false);
   }
 
+  /// The same on all ranks.
   [[nodiscard]] bool any() const { return std::find(goes_.begin(), goes_.end(), true) != goes_.end(); }
 
   /// Excludes blocks that others would stop, and then those stopped by the excluded ones.
@@ -54,36 +58,59 @@ class MotionExtrapolation {
         all = false;
         exclude({pair.a(), pair.b()});
       }
+      all = agree(all);
     }
+  }
+
+  /// Largest path of a block of this rank on the way, m.
+  [[nodiscard]] double farthest(const SharedBlocks& shared, const ContactFinder& finder) const {
+    const double share = path_factor();
+    return farthest_path(shared, system_, finder, [&](int block) {
+      return Eigen::MatrixX3d((goes(block) ? share : 1.0) * problem_.bodies[at(block)].motion());
+    });
   }
 
   /// Excludes blocks whose features would pass each other on the extrapolated path without a known contact.
   /// @return true if there are any
   [[nodiscard]] bool exclude_passing(StepContacts& contacts) {
     std::vector<BlockState> after = states_after(system_, state_, problem_);
+    const double share = path_factor();
     for (std::size_t k = 0; k < goes_.size(); ++k)
-      if (goes_[k]) after[k].position += path_factor() * problem_.bodies[k].motion();
-    bool any = false;
+      if (goes_[k] && system_.moving()[k]) after[k].position += share * problem_.bodies[k].motion();
+    bool none = true;
     for (const PassingBlocks& passing : contacts.check_motion(system_, state_, after, problem_.found)) {
-      any = any || goes(passing.blocks[0]) || goes(passing.blocks[1]);
+      if (!system_.owns_pair(passing.blocks[0], passing.blocks[1])) continue;
+      none = none && !goes(passing.blocks[0]) && !goes(passing.blocks[1]);
       exclude(passing.blocks);
     }
-    return any;
+    return !agree(none);
   }
 
   /// Includes the motion of blocks that move along with the certain ones, or yield to them.
   [[nodiscard]] CertainMotion result() const {
     CertainMotion motion;
     if (!any()) return motion;
-    for (const double of_iteration : displacements_)
-      motion.displacements.push_back(path_factor() * of_iteration);
+    const double share = path_factor();
+    for (const double of_iteration : displacements_) motion.displacements.push_back(share * of_iteration);
     return motion;
   }
 
  private:
   [[nodiscard]] bool goes(int block) const { return goes_[at(block)]; }
   void exclude(const PairKey& pair) {
-    for (const int block : pair) goes_[at(block)] = false;
+    for (const int block : pair) {
+      goes_[at(block)] = false;
+      stopped_[at(block)] = true;
+    }
+  }
+
+  /// Excludes the blocks that any rank has excluded. @return true if nothing was excluded on any
+  bool agree(bool none) {
+    if (system_.share() == nullptr) return none;
+    if (all_of_run(system_, none)) return true;
+    stopped_ = any_of_run(system_, stopped_);
+    for (std::size_t k = 0; k < goes_.size(); ++k) goes_[k] = goes_[k] && !stopped_[k];
+    return false;
   }
 
   /// True if the residual changes so little in the iteration that it would not vanish on the way to `far`.
@@ -98,12 +125,12 @@ class MotionExtrapolation {
     return (residual - progress.residuals[k]).norm() * far_ <= displacements_[k] * norm;
   }
 
-  /// Factor that extrapolates the displacements of the iteration until the fastest block has gone `far`.
+  /// Factor that extrapolates the displacements of the iteration until the fastest block has gone `far`. Collective.
   [[nodiscard]] double path_factor() const {
     double longest = 0.0;
     for (std::size_t k = 0; k < goes_.size(); ++k)
       if (goes_[k]) longest = std::max(longest, displacements_[k]);
-    return far_ / longest;
+    return far_ / most_of_run(system_, longest);
   }
 
   /// Change of the unknowns; zero for blocks without certain motion.
@@ -132,21 +159,30 @@ class MotionExtrapolation {
   RunState& state_;  ///< its log counts the work
   const StepProblem& problem_;
   double far_;
-  std::vector<bool> goes_;
-  std::vector<double> displacements_;  ///< displacements in the iteration, in block sizes
+  std::vector<bool> goes_;     ///< by block, the same on all ranks
+  std::vector<bool> stopped_;  ///< by block: excluded by this rank
+  std::vector<double>
+      displacements_;  ///< displacements in the iteration, in block sizes; 0 of blocks elsewhere
 };
 
 }  // namespace
 
 FollowedMotion follow_motion(const BlockSystem& system, RunState& state, StepContacts& contacts,
-                             const StepProblem& problem, double far) {
+                             const StepProblem& problem, double far, const SharedBlocks* shared) {
   MotionExtrapolation path(system, state, problem, far);
   do {
     path.exclude_stopped();
+    if (shared != nullptr && path.any()) {
+      const double farthest = most_of_run(system, path.farthest(*shared, contacts.finder()));
+      if (farthest > shared->margin) return {{}, {}, farthest};
+    }
   } while (path.any() && path.exclude_passing(contacts));
   // The contact finder keeps the motion that it has checked last.
   const std::vector<BlockState> after = states_after(system, state, problem);
-  return {path.result(), contacts.check_motion(system, state, after, problem.found)};
+  FollowedMotion followed{path.result(), contacts.check_motion(system, state, after, problem.found)};
+  std::erase_if(followed.passing,
+                [&](const PassingBlocks& pair) { return !system.owns_pair(pair.blocks[0], pair.blocks[1]); });
+  return followed;
 }
 
 void note_certain_motion(StaticState& statics, const CertainMotion& motion) {

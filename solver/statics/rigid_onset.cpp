@@ -7,6 +7,8 @@
 #include "geometry/index.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/static_verdict.hpp"
+#include "solver/step/agreement.hpp"
+#include "solver/step/shared_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -34,6 +36,29 @@ bool is_rigid(const Island& island, const std::vector<ContactPair>& pairs) {
                      [&](int index) { return pairs[at(index)].rigid(); });
 }
 
+/// The bodies of an island on this rank, and decisions and sums over all of its bodies. Collective for the island that
+/// ranks share.
+class IslandOfRanks {
+ public:
+  IslandOfRanks(const BlockSystem& system, const StepProblem& problem, std::size_t index)
+      : system_(system), shared_(static_cast<int>(index) == problem.shared) {
+    for (const int block : problem.islands[index].bodies)
+      if (system.owns(block)) own_.push_back(block);
+  }
+  [[nodiscard]] bool shared() const { return shared_; }
+  [[nodiscard]] const std::vector<int>& own() const { return own_; }
+  [[nodiscard]] bool any(bool value) const { return shared_ ? any_of_run(system_, value) : value; }
+  [[nodiscard]] bool all(bool value) const { return !any(!value); }
+  [[nodiscard]] double most(double value) const { return shared_ ? most_of_run(system_, value) : value; }
+  [[nodiscard]] double least(double value) const { return shared_ ? least_of_run(system_, value) : value; }
+  [[nodiscard]] double sum(double value) const { return shared_ ? sum_of_run(system_, value) : value; }
+
+ private:
+  const BlockSystem& system_;
+  bool shared_;
+  std::vector<int> own_;
+};
+
 /// Extremes over the bodies at the onset of motion.
 struct Onset {
   double smallest = std::numeric_limits<double>::infinity();  // block size, m
@@ -48,13 +73,14 @@ struct ReleasedBlocks {
 };
 
 Onset prepare(const BlockSystem& system, const RunState& state, const Island& island,
-              const StepProblem& problem, ReleasedBlocks& released) {
+              const IslandOfRanks& ranks, const StepProblem& problem, ReleasedBlocks& released) {
   Onset onset;
-  for (const int k : island.bodies) {
+  for (const int k : ranks.own()) {
     onset.farthest = std::max(onset.farthest, displacement_since_onset(system, state, k));
     onset.smallest = std::min(onset.smallest, block_size(system.blocks()[at(k)]));
     onset.stiffer = std::max(onset.stiffer, stiffening(problem.bodies[at(k)]));
   }
+  onset = {ranks.least(onset.smallest), ranks.most(onset.stiffer), ranks.most(onset.farthest)};
   for (const int k : island.bodies) {
     released.states[at(k)].position = system.blocks()[at(k)].unstrained(state.states[at(k)].position);
     BodyStep& body = released.bodies[at(k)];
@@ -67,26 +93,27 @@ Onset prepare(const BlockSystem& system, const RunState& state, const Island& is
   return onset;
 }
 
-/// Accelerations of an island's blocks. @param bodies as solved, in a step of this inertia
-std::vector<Eigen::MatrixX3d> accelerations_of(const Island& island, const std::vector<BodyStep>& bodies,
-                                               double inertia) {
+/// Accelerations of blocks of an island. @param bodies as solved, in a step of this inertia
+std::vector<Eigen::MatrixX3d> accelerations_of(const std::vector<int>& blocks,
+                                               const std::vector<BodyStep>& bodies, double inertia) {
   std::vector<Eigen::MatrixX3d> accelerations;
-  for (const int k : island.bodies)
+  for (const int k : blocks)
     accelerations.emplace_back(inertia * bodies[at(k)].model->space().expand(bodies[at(k)].change));
   return accelerations;
 }
 
 /// Replaces accelerations influenced by compliance by those of rigid blocks. Marks blocks of an island that rigid
 /// blocks would leave at rest.
-/// @param rigid_ones by block of the island. @return true if the rigid blocks move
-bool take_over(const BlockSystem& system, const Island& island, std::vector<Eigen::MatrixX3d> rigid_ones,
-               StaticOnset& onset, std::vector<Eigen::MatrixX3d>& accelerations) {
+/// @param rigid_ones by own block of the island. @return true if the rigid blocks move
+bool take_over(const BlockSystem& system, const IslandOfRanks& island,
+               std::vector<Eigen::MatrixX3d> rigid_ones, StaticOnset& onset,
+               std::vector<Eigen::MatrixX3d>& accelerations) {
   double along = 0.0;
   double own = 0.0;
   double given = 0.0;
   double largest = 0.0;
-  for (std::size_t n = 0; n < island.bodies.size(); ++n) {
-    const int k = island.bodies[n];
+  for (std::size_t n = 0; n < island.own().size(); ++n) {
+    const int k = island.own()[n];
     const BlockModel& block = system.blocks()[at(k)];
     const double weight = std::pow(block.material().density, 2);
     along += weight * rigid_ones[n].cwiseProduct(accelerations[at(k)]).sum();
@@ -94,14 +121,18 @@ bool take_over(const BlockSystem& system, const Island& island, std::vector<Eige
     given += weight * accelerations[at(k)].squaredNorm();
     largest = std::max(largest, mean_motion(block, rigid_ones[n]));
   }
+  along = island.sum(along);
+  own = island.sum(own);
+  given = island.sum(given);
+  largest = island.most(largest);
   if (own < least_share * least_share * given) {
-    for (const int k : island.bodies) onset.is_compliant[at(k)] = 1;
+    for (const int k : island.own()) onset.is_compliant[at(k)] = 1;
     return false;
   }
   // Rigid blocks would only undo penetration and gaps of the deformable ones.
   if (along <= 0.0) return false;
-  for (std::size_t n = 0; n < island.bodies.size(); ++n) {
-    const int k = island.bodies[n];
+  for (std::size_t n = 0; n < island.own().size(); ++n) {
+    const int k = island.own()[n];
     if (mean_motion(system.blocks()[at(k)], rigid_ones[n]) < least_share * largest) rigid_ones[n].setZero();
     accelerations[at(k)] = std::move(rigid_ones[n]);
   }
@@ -122,16 +153,17 @@ bool starts_rigidly(const BlockSystem& system, RunState& state, IslandSolvers& s
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const Island& island = problem.islands[i];
     const IslandResult& result = problem.results[i];
-    const double motion = largest_motion(island, problem.bodies);
-    if (island.pairs.empty() || motion == 0.0) continue;
-    const bool is_compliant = std::any_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
+    const IslandOfRanks ranks(system, problem, i);
+    const double motion = ranks.most(largest_motion(island, problem.bodies));
+    if (!ranks.any(!island.pairs.empty()) || motion == 0.0) continue;
+    const bool is_compliant = ranks.any(std::any_of(ranks.own().begin(), ranks.own().end(), [&](int block) {
       return state.statics.onset.is_compliant[at(block)] != 0;
-    });
-    if (!is_rigid(island, pairs) || is_compliant) {
+    }));
+    if (!ranks.all(is_rigid(island, pairs)) || is_compliant) {
       all = false;
       continue;
     }
-    const Onset onset = prepare(system, state, island, problem, released);
+    const Onset onset = prepare(system, state, island, ranks, problem, released);
     for (std::size_t n = 0; n < island.pairs.size(); ++n) {
       ContactPair& pair = pairs[at(island.pairs[n])];
       pair = pair.at_rigid_onset(result.responses[n], result.laws[n], opened_by * onset.farthest);
@@ -140,14 +172,17 @@ bool starts_rigidly(const BlockSystem& system, RunState& state, IslandSolvers& s
     let_go.inertia = problem.scheme.inertia * motion / way;
     let_go.force_weight = onset.stiffer;
     settings.multipliers.penetration_tolerance = depth_share * way * onset.smallest;
-    const IslandResult off = solve_island(island, released.bodies, pairs, let_go, settings, solvers);
+    const IslandResult off =
+        ranks.shared() ? solve_shared_island(system, island, released.bodies, pairs, let_go, settings)
+                       : solve_island(island, released.bodies, pairs, let_go, settings, solvers);
     state.log.counts.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
-    const bool rigid = off.status == IslandStatus::converged &&
-                       take_over(system, island, accelerations_of(island, released.bodies, let_go.inertia),
-                                 state.statics.onset, accelerations);
+    const bool rigid =
+        off.status == IslandStatus::converged &&
+        take_over(system, ranks, accelerations_of(ranks.own(), released.bodies, let_go.inertia),
+                  state.statics.onset, accelerations);
     all = all && rigid;
   }
-  return all;
+  return all_of_run(system, all);
 }
 
 }  // namespace ashlar

@@ -1,7 +1,11 @@
 #include "solver/statics/static_start.hpp"
 
+#include "geometry/index.hpp"
+#include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/step/accepted_bolts.hpp"
+#include "solver/step/ghosts.hpp"
+#include "solver/step/shared_snapshot.hpp"
 #include "solver/step/snapshot.hpp"
 
 namespace ashlar {
@@ -11,20 +15,26 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   RunState& state = run.state;
   const SimulationSnapshot as_placed = snapshot_of(system, state, run.caches);
   const double far = system.settings().statics.displacement_limit;
-  for (const std::vector<int>& blocks : loose_blocks(system, state, run.caches.contacts)) system.hold(blocks);
+  for (const std::vector<int>& blocks : loose_blocks(system, state, run.caches.contacts))
+    system.hold_loose(blocks);
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing && goes_on()) status = static_step(run, state.time(), far);
-  system.let_go();
+  system.let_go_loose();
   if (status != StaticStatus::equilibrium) {
-    restore(system, state, run.caches, as_placed);
+    if (run.shared == nullptr)
+      restore(system, state, run.caches, as_placed);
+    else
+      restore_own(*run.shared, system, state, run.caches, as_placed);
     return status;
   }
-  for (std::size_t k = 0; k < state.states.size(); ++k)
-    state.states[k].velocity = as_placed.run.states[k].velocity;
+  for (int k = 0; k < system.count(); ++k)
+    if (system.owns(k)) state.states[at(k)].velocity = as_placed.run.states[at(k)].velocity;
+  if (run.shared != nullptr) update_ghosts(system, state);
   state.statics = StaticState{};
   double in_springs = 0.0;
   for (PairRecord& record : state.records) {
-    for (const PointResponse& response : record.responses) in_springs += response.energy();
+    if (system.owns_pair(record.a, record.b))
+      for (const PointResponse& response : record.responses) in_springs += response.energy();
     record.work = 0.0;
   }
   for (auto& [blocks, pair] : state.pairs) pair.work = 0.0;

@@ -9,11 +9,14 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/archived_geometry.hpp"
 #include "solver/statics/certain_motion.hpp"
 #include "solver/statics/static_verdict.hpp"
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/accepted_step.hpp"
+#include "solver/step/agreement.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/ghosts.hpp"
 #include "solver/step/quiet_release.hpp"
 #include "solver/step/step_problem.hpp"
 
@@ -27,8 +30,14 @@ TimeScheme static_scheme(double inertia) {
   return scheme;
 }
 
-std::array<int, 3> contact_states(const StepReport& report) {
-  return {report.open, report.locked, report.sliding};
+/// Of all ranks.
+std::array<int, 3> contact_states(const BlockSystem& system, const StepReport& report) {
+  std::array<int, 3> states{report.open, report.locked, report.sliding};
+  if (system.share() == nullptr) return states;
+  const std::vector<double> here(states.begin(), states.end());
+  const std::vector<double> sums = sum_of_ranks(system.share()->ranks(), here);
+  for (std::size_t k = 0; k < states.size(); ++k) states[k] = static_cast<int>(sums[k]);
+  return states;
 }
 
 /// The smallest m of time_scheme.hpp used by iterations, 1/s^2: it restrains otherwise unrestrained blocks.
@@ -44,8 +53,9 @@ double least_inertia(const BlockSystem& system) {
             .maxCoeff();
     most = std::max(most, stiffness / block.material().density);
   }
+  most = most_of_run(system, most);
   const std::vector<bool> held = system.held_without_contacts();
-  const bool all = std::find(held.begin(), held.end(), false) == held.end();
+  const bool all = all_of_run(system, std::find(held.begin(), held.end(), false) == held.end());
   return (all ? system.settings().statics.held_inertia_share : system.settings().statics.inertia_share) *
          most;
 }
@@ -58,11 +68,11 @@ bool has_level(const BlockSystem& system, const StaticState& statics) {
 void start_load_level(const BlockSystem& system, RunState& state, double end_time) {
   const double time_step = system.settings().time_step;
   StepClock& clock = state.clock;
-  const bool changing =
-      system.settings().gravity_history.changes_between(clock.time(), end_time) ||
-      std::any_of(system.blocks().begin(), system.blocks().end(), [&](const BlockModel& block) {
-        return block.loads_change_between(clock.time(), end_time);
-      });
+  const bool changing = any_of_run(
+      system, system.settings().gravity_history.changes_between(clock.time(), end_time) ||
+                  std::any_of(system.blocks().begin(), system.blocks().end(), [&](const BlockModel& block) {
+                    return block.loads_change_between(clock.time(), end_time);
+                  }));
   if (changing && clock.time_after(time_step) < end_time - time_rounding(time_step, end_time)) {
     clock.advance(time_step);
   } else {
@@ -76,7 +86,8 @@ void start_load_level(const BlockSystem& system, RunState& state, double end_tim
   if (statics.inertia == 0.0) statics.inertia = 2.0 / (time_step * time_step);
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
     BlockState& block = state.states[k];
-    if (system.moving()[k]) state.ledger.integrator_took(system.blocks()[k].kinetic_energy(block));
+    if (system.moving()[k] && system.owns(static_cast<int>(k)))
+      state.ledger.integrator_took(system.blocks()[k].kinetic_energy(block));
     block.velocity.setZero();
     statics.progress.positions.push_back(block.position);
     statics.level_start.push_back(block.position);
@@ -98,6 +109,23 @@ void let_bonds_go(RunState& state) {
   for (auto& [blocks, pair] : state.pairs) pair.memory.drop_multipliers();
 }
 
+/// Tells ranks where their ghosts were at the start of the load level. Collective.
+void update_level_starts(const BlockSystem& system, RunState& state) {
+  std::vector<Eigen::MatrixX3d>& starts = state.statics.level_start;
+  const BlockShare& share = *system.share();
+  share.exchange(
+      [&](ByteWriter& writer, int rank) {
+        for (const int block : share.lent_to(rank)) writer(block, starts[at(block)]);
+      },
+      [&](ByteReader& reader, int) {
+        while (!reader.at_end()) {
+          int block = -1;
+          reader(block);
+          reader(starts.at(at(block)));
+        }
+      });
+}
+
 /// One iteration: repeated with larger inertia until it is accepted.
 class StaticIteration {
  public:
@@ -106,19 +134,21 @@ class StaticIteration {
         state_(run.state),
         caches_(run.caches),
         fault_(run.fault),
+        shared_(run.shared),
         end_time_(end_time),
         far_(far),
         least_(least_inertia(run.system)) {
-    problem_.found = caches_.contacts.detect(system_, state_, 0.0);
-    pair_up();
+    detect();
     StaticState& statics = state_.statics;
     statics.freezes_failure =
-        statics.freezes_failure && std::any_of(problem_.pairs.begin(), problem_.pairs.end(),
-                                               [](const ContactPair& p) { return p.bonded(); });
+        statics.freezes_failure &&
+        any_of_run(system_, std::any_of(problem_.pairs.begin(), problem_.pairs.end(),
+                                        [](const ContactPair& p) { return p.bonded(); }));
   }
 
   StaticStatus run() {
-    for (int cuts = 0; cuts <= system_.settings().statics.cuts; ++cuts) {
+    for (int cuts = 0; cuts <= system_.settings().statics.cuts;
+         cuts += std::exchange(has_other_ghosts_, false) ? 0 : 1) {
       const TimeScheme scheme = static_scheme(std::max(state_.statics.inertia, least_));
       double raise = 10.0;
       if (const auto status = attempt(scheme, raise)) return *status;
@@ -129,6 +159,11 @@ class StaticIteration {
   }
 
  private:
+  void detect() {
+    if (system_.share() != nullptr) update_level_starts(system_, state_);
+    problem_.found = caches_.contacts.detect(system_, state_, 0.0);
+    pair_up();
+  }
   void pair_up() {
     problem_.pairs = caches_.contacts.pairs(system_, state_, problem_.found, PairUse::statics);
   }
@@ -154,21 +189,24 @@ class StaticIteration {
       }
       return std::nullopt;
     }
-    if (const auto broken = broken_block(system_, state_, problem_)) {
+    if (const auto broken = first_of_run(system_, broken_block(system_, state_, problem_))) {
       reject_for(*broken, step);
       return std::nullopt;
     }
-    const double motion = largest_motion(problem_);
+    const double motion = most_of_run(system_, largest_motion(problem_));
     if (motion > system_.settings().statics.motion) {
       raise = std::clamp(1.1 * motion / system_.settings().statics.motion, 2.0, 1e4);
       return std::nullopt;
     }
-    const FollowedMotion followed = follow_motion(system_, state_, caches_.contacts, problem_, far_);
-    if (!followed.passing.empty()) {
+    if (needs_other_ghosts(problem_)) return again(raise);
+    const FollowedMotion followed = follow_motion(system_, state_, caches_.contacts, problem_, far_, shared_);
+    if (followed.beyond > 0.0 && leave_margin(*shared_, system_, state_, caches_, followed.beyond))
+      return again(raise);
+    if (any_of_run(system_, !followed.passing.empty())) {
       raise = meet(step, followed.passing);
       return std::nullopt;
     }
-    const auto deep = audit_depths(system_, state_, caches_, problem_, false);
+    const auto deep = first_of_run(system_, audit_depths(system_, state_, caches_, problem_, false));
     if (deep && !has_gone_far()) {
       reject_for(*deep, step);
       return std::nullopt;
@@ -176,10 +214,29 @@ class StaticIteration {
     return take(followed.certain, motion);
   }
 
+  /// True if blocks have moved so far that ghosts have been found again.
+  bool needs_other_ghosts(const StepProblem& problem) {
+    if (shared_ == nullptr) return false;
+    const double farthest =
+        farthest_path(*shared_, system_, caches_.contacts.finder(),
+                      [&problem](int block) { return problem.bodies[at(block)].motion(); });
+    return leave_margin(*shared_, system_, state_, caches_, farthest);
+  }
+
+  /// The same attempt with other ghosts, which is no cut.
+  std::optional<StaticStatus> again(double& raise) {
+    has_other_ghosts_ = true;
+    raise = 1.0;
+    problem_.results.clear();
+    detect();
+    return std::nullopt;
+  }
+
   /// Treats blocks that would pass through each other. @return factor on inertia
   double meet(double step, const std::vector<PassingBlocks>& passing) {
     reject(state_, step, RejectionReason::passing);
-    const double share = passing.front().touch.share;
+    const double share = least_of_run(
+        system_, passing.empty() ? std::numeric_limits<double>::infinity() : passing.front().touch.share);
     if (share <= system_.settings().search.smallest_cut) {
       problem_.found = with_passing(std::move(problem_.found), passing);
       state_.log.counts.passing_contacts += passing.size();
@@ -196,16 +253,16 @@ class StaticIteration {
   StaticStatus take(const CertainMotion& certain, double motion) {
     StaticState& statics = state_.statics;
     const TimeScheme scheme = problem_.scheme;
-    const std::array<int, 3> before = contact_states(state_.report);
+    const std::array<int, 3> before = contact_states(system_, state_.report);
     const bool balanced = note_balance(system_, state_, problem_);
-    const bool converged = has_converged(problem_);
+    const bool converged = has_converged(system_, problem_);
     if (converged) note_certain_motion(statics, certain);
     if (balanced) {
       forget_accelerations(state_);
     } else {
       note_accelerations(system_, state_, caches_.factors.islands, problem_);
     }
-    const bool repeat = multipliers_repeat(system_.settings().statics, problem_);
+    const bool repeat = multipliers_repeat(system_, problem_);
     note_residuals(system_, problem_, statics);
     accept(system_, state_, caches_, std::move(problem_));
     state_.report.step = step_of(scheme);
@@ -218,7 +275,7 @@ class StaticIteration {
     const bool ruptured = (balanced || has_gone_far()) && rupture_bolts(system_, state_);
     const bool still =
         balanced && !ruptured && (scheme.inertia <= least_ || least_ == 0.0) &&
-        (before == contact_states(state_.report) || motion <= system_.settings().statics.stillness);
+        (before == contact_states(system_, state_.report) || motion <= system_.settings().statics.stillness);
     if (still && !repeat) ++statics.multiplier_iterations;
     const bool settled =
         still && (repeat || statics.multiplier_iterations > system_.settings().statics.multiplier_iterations);
@@ -228,11 +285,11 @@ class StaticIteration {
     // completely.
     if (statics.balanced) {
       const PresentDepths present = audit_present(system_, state_, caches_);
-      if (present.fault) {
-        reject_for(*present.fault, step_of(scheme));
+      if (const auto fault = first_of_run(system_, present.fault)) {
+        reject_for(*fault, step_of(scheme));
         return give_up(system_, statics);
       }
-      if (present.unexpected) {
+      if (any_of_run(system_, present.unexpected)) {
         statics.balanced = false;
         statics.still_iterations = 0;
       }
@@ -243,18 +300,20 @@ class StaticIteration {
     return statics.moving ? StaticStatus::moving : StaticStatus::balancing;
   }
 
-  [[nodiscard]] bool has_gone_far() const { return has_set_off(system_.settings().statics, state_.statics); }
+  [[nodiscard]] bool has_gone_far() const { return has_set_off(system_, state_.statics); }
 
   BlockSystem& system_;
   RunState& state_;
   StepCaches& caches_;
   std::optional<StateFault>& fault_;
+  SharedBlocks* shared_;
   double end_time_;
   double far_;    ///< in block sizes
   double least_;  ///< inertia, 1/s^2
   StepProblem problem_;
   bool cut_ = false;
   bool cut_to_touch_ = false;
+  bool has_other_ghosts_ = false;  ///< found in the last attempt
 };
 
 }  // namespace
@@ -272,32 +331,8 @@ StaticStatus static_step(const RunContext& run, double end_time, double far) {
     start_load_level(system, state, end_time);
   if (statics.iterations >= system.settings().statics.iterations) return give_up(system, statics);
   ++statics.iterations;
+  if (run.shared != nullptr) find_ghosts_for(*run.shared, system, state, run.caches, 0.0);
   return StaticIteration(run, end_time, far).run();
-}
-
-std::vector<std::vector<int>> loose_blocks(const BlockSystem& system, RunState& state,
-                                           StepContacts& contacts) {
-  const std::vector<ContactPair> pairs =
-      contacts.pairs(system, state, contacts.detect(system, state, 0.0), PairUse::statics);
-  std::vector<std::vector<int>> loose;
-  const std::vector<StepBolt> bolts =
-      step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
-  for (const Island& island : find_islands(system.moving(), pairs, bolts)) {
-    bool held = island.pairs.empty() && island.bodies.size() == 1 &&
-                system.blocks()[at(island.bodies.front())].space().held();
-    for (const int index : island.pairs) {
-      const ContactPair& pair = pairs[at(index)];
-      for (const int block : {pair.a(), pair.b()}) {
-        const BlockModel& model = system.blocks()[at(block)];
-        held = held || model.fixed() || model.supported();
-      }
-    }
-    for (const StepBolt* bolt : island.bolts)
-      for (const int block : bolt->blocks())
-        held = held || system.blocks()[at(block)].fixed() || system.blocks()[at(block)].supported();
-    if (!held) loose.push_back(island.bodies);
-  }
-  return loose;
 }
 
 }  // namespace ashlar

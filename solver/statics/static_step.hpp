@@ -13,9 +13,4 @@ namespace ashlar {
 /// @throws std::logic_error if a block is incremental
 [[nodiscard]] StaticStatus static_step(const RunContext& run, double end_time, double far);
 
-/// Sets of blocks in contact with each other that no fixed block, contact or support restrains, including single
-/// blocks whose supports allow any rigid motion.
-[[nodiscard]] std::vector<std::vector<int>> loose_blocks(const BlockSystem& system, RunState& state,
-                                                         StepContacts& contacts);
-
 }  // namespace ashlar

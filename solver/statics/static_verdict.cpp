@@ -7,8 +7,10 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/basis/field_moments.hpp"
+#include "solver/archived_geometry.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/rigid_onset.hpp"
+#include "solver/step/agreement.hpp"
 
 namespace ashlar {
 namespace {
@@ -69,7 +71,7 @@ double largest_motion(const StepProblem& problem) {
   return most;
 }
 
-bool multipliers_repeat(const StaticSettings& settings, const StepProblem& problem) {
+bool multipliers_repeat(const BlockSystem& system, const StepProblem& problem) {
   double change = 0.0;
   double largest = 0.0;
   for (const IslandResult& result : problem.results) {
@@ -84,25 +86,27 @@ bool multipliers_repeat(const StaticSettings& settings, const StepProblem& probl
       }
     }
   }
-  return change <= settings.multiplier_tolerance * largest;
+  return most_of_run(system, change) <=
+         system.settings().statics.multiplier_tolerance * most_of_run(system, largest);
 }
 
-bool has_set_off(const StaticSettings& settings, const StaticState& statics) {
-  return std::any_of(
-      statics.progress.displacements.begin(), statics.progress.displacements.end(),
-      [&](double displacement) { return displacement > taken_along_share * settings.displacement_limit; });
+bool has_set_off(const BlockSystem& system, const StaticState& statics) {
+  const double least = taken_along_share * system.settings().statics.displacement_limit;
+  const std::vector<double>& displacements = statics.progress.displacements;
+  return any_of_run(system, std::any_of(displacements.begin(), displacements.end(),
+                                        [least](double displacement) { return displacement > least; }));
 }
 
-bool has_converged(const StepProblem& problem) {
-  return std::none_of(problem.bodies.begin(), problem.bodies.end(),
-                      [](const BodyStep& body) { return body.residual > 0.0; });
+bool has_converged(const BlockSystem& system, const StepProblem& problem) {
+  return all_of_run(system, std::none_of(problem.bodies.begin(), problem.bodies.end(),
+                                         [](const BodyStep& body) { return body.residual > 0.0; }));
 }
 
 bool note_balance(const BlockSystem& system, RunState& state, const StepProblem& problem) {
   bool balanced = true;
   const std::vector<bool> held = system.held_without_contacts();
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
-    if (!system.moving()[k]) continue;
+    if (!system.moving()[k] || !system.owns(static_cast<int>(k))) continue;
     const BodyStep& body = problem.bodies[k];
     const BlockModel& block = system.blocks()[k];
     const double lacking =
@@ -124,7 +128,8 @@ bool note_balance(const BlockSystem& system, RunState& state, const StepProblem&
     if (state.statics.progress.displacements[k] > system.settings().statics.displacement_limit && !held[k])
       state.statics.moving = true;
   }
-  return balanced;
+  state.statics.moving = any_of_run(system, state.statics.moving);
+  return all_of_run(system, balanced);
 }
 
 void forget_accelerations(RunState& state) {
@@ -144,17 +149,19 @@ double displacement_since_onset(const BlockSystem& system, const RunState& state
 void note_accelerations(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
                         const StepProblem& problem) {
   auto [sliding, fail] = joints_of(problem, system.settings().tearing_gap());
-  if (fail) forget_accelerations(state);
-  const bool settled = has_converged(problem) && sliding == state.statics.onset.sliding;
+  if (any_of_run(system, fail)) forget_accelerations(state);
+  const bool settled =
+      has_converged(system, problem) && all_of_run(system, sliding == state.statics.onset.sliding);
   state.statics.onset.sliding = std::move(sliding);
   // Until the same joints slide twice, the last iteration is the best: in the first ones inertia carries most of the
   // weight.
   if (!settled && std::isfinite(state.statics.onset.least_residual)) return;
   bool near_start = true;
-  for (std::size_t k = 0; k < system.blocks().size(); ++k)
+  for (int k = 0; k < system.count(); ++k)
     near_start =
-        near_start && !(system.moving()[k] && displacement_since_onset(system, state, static_cast<int>(k)) >
-                                                  system.settings().contact_distance);
+        near_start && !(system.moving()[at(k)] && system.owns(k) &&
+                        displacement_since_onset(system, state, k) > system.settings().contact_distance);
+  near_start = all_of_run(system, near_start);
   if (!near_start && state.statics.onset.rigid) return;
   std::vector<Eigen::MatrixX3d> accelerations(system.blocks().size());
   for (std::size_t k = 0; k < system.blocks().size(); ++k)
@@ -164,7 +171,9 @@ void note_accelerations(const BlockSystem& system, RunState& state, IslandSolver
     const bool rigid = starts_rigidly(system, state, solvers, problem, accelerations);
     double lacking = 0.0;
     for (std::size_t k = 0; k < system.blocks().size(); ++k)
-      lacking += std::pow(system.blocks()[k].material().density * accelerations[k].norm(), 2);
+      if (system.owns(static_cast<int>(k)))
+        lacking += std::pow(system.blocks()[k].material().density * accelerations[k].norm(), 2);
+    lacking = sum_of_run(system, lacking);
     if (!(lacking < state.statics.onset.least_residual)) return;
     state.statics.onset.least_residual = lacking;
     state.statics.onset.rigid = rigid;
@@ -179,16 +188,16 @@ StaticStatus give_up(const BlockSystem& system, StaticState& statics) {
     statics.moving =
         statics.moving || (!held[k] && statics.progress.displacements[k] >
                                            slow_share * system.settings().statics.displacement_limit);
+  statics.moving = any_of_run(system, statics.moving);
   return statics.moving ? StaticStatus::moving : StaticStatus::not_converged;
 }
 
-std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState& state) {
+MovingBlocks moving_blocks(const BlockSystem& system, const RunState& state) {
   const std::vector<bool> held = system.held_without_contacts();
-  std::vector<MovingBlock> result;
-  std::vector<MovingBlock> later;
+  MovingBlocks moving;
   for (std::size_t k = 0; k < state.statics.progress.displacements.size(); ++k) {
     const BlockModel& block = system.blocks()[k];
-    if (!system.moving()[k] || held[k] ||
+    if (!system.moving()[k] || held[k] || !system.owns(static_cast<int>(k)) ||
         state.statics.progress.displacements[k] <=
             taken_along_share * system.settings().statics.displacement_limit)
       continue;
@@ -196,10 +205,29 @@ std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
                                        gradient(1, 0) - gradient(0, 1));
-    (a.isZero(0.0) ? later : result)
+    (a.isZero(0.0) ? moving.later : moving.first)
         .push_back({static_cast<int>(k), mean_of(a, block.basis().volume()), turn});
   }
-  return result.empty() ? later : result;
+  return moving;
+}
+
+std::vector<MovingBlock> moving_of_run(const BlockSystem& system, const RunState& state) {
+  MovingBlocks moving = moving_blocks(system, state);
+  if (system.share() != nullptr) {
+    const std::vector<MovingBlocks> of_ranks = values_of_ranks(system.share()->ranks(), moving);
+    moving = {};
+    const auto add = [](const std::vector<MovingBlock>& from, std::vector<MovingBlock>& to) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    for (const MovingBlocks& of_rank : of_ranks) {
+      add(of_rank.first, moving.first);
+      add(of_rank.later, moving.later);
+    }
+  }
+  std::vector<MovingBlock>& told = moving.first.empty() ? moving.later : moving.first;
+  std::sort(told.begin(), told.end(),
+            [](const MovingBlock& x, const MovingBlock& y) { return x.block < y.block; });
+  return std::move(told);
 }
 
 }  // namespace ashlar

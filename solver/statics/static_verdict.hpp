@@ -15,8 +15,10 @@ namespace ashlar {
 /// Displacement of a block since its onset of motion, m.
 [[nodiscard]] double displacement_since_onset(const BlockSystem& system, const RunState& state, int block);
 
+/// @name Decisions, which all ranks take together
+/// @{
 /// True if the open-close iteration left no residual in any body (settings.statics.unconverged_share).
-[[nodiscard]] bool has_converged(const StepProblem& problem);
+[[nodiscard]] bool has_converged(const BlockSystem& system, const StepProblem& problem);
 /// Records the residual of each block. @return true if all are within the tolerance
 [[nodiscard]] bool note_balance(const BlockSystem& system, RunState& state, const StepProblem& problem);
 /// Records the accelerations to be reported for moving blocks. @param problem solved, not accepted
@@ -25,12 +27,21 @@ void note_accelerations(const BlockSystem& system, RunState& state, IslandSolver
 /// Discards recorded accelerations, after an iteration in equilibrium.
 void forget_accelerations(RunState& state);
 /// True if multipliers have converged: they equal the forces at the end of the iteration.
-[[nodiscard]] bool multipliers_repeat(const StaticSettings& settings, const StepProblem& problem);
+[[nodiscard]] bool multipliers_repeat(const BlockSystem& system, const StepProblem& problem);
 /// True if any block has gone far enough to be listed as moving.
-[[nodiscard]] bool has_set_off(const StaticSettings& settings, const StaticState& statics);
+[[nodiscard]] bool has_set_off(const BlockSystem& system, const StaticState& statics);
 /// Status of a static analysis that is ended without equilibrium: moving or not converged.
 [[nodiscard]] StaticStatus give_up(const BlockSystem& system, StaticState& statics);
-/// Blocks found to be moving, including blocks carried along.
-[[nodiscard]] std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState& state);
+/// @}
+
+/// Blocks of this rank found to be moving.
+struct MovingBlocks {
+  std::vector<MovingBlock> first;  ///< from the onset on
+  std::vector<MovingBlock>
+      later;  ///< set in motion later: reported only if no block of the run moves from the onset on
+};
+[[nodiscard]] MovingBlocks moving_blocks(const BlockSystem& system, const RunState& state);
+/// Blocks of all ranks found to be moving, including blocks carried along, by block. Collective.
+[[nodiscard]] std::vector<MovingBlock> moving_of_run(const BlockSystem& system, const RunState& state);
 
 }  // namespace ashlar

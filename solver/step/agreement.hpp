@@ -13,6 +13,15 @@ namespace ashlar {
   return system.share() == nullptr ? value : any_rank(system.share()->ranks(), value);
 }
 
+/// True if true on all ranks.
+[[nodiscard]] inline bool all_of_run(const BlockSystem& system, bool value) {
+  return !any_of_run(system, !value);
+}
+
+[[nodiscard]] inline double most_of_run(const BlockSystem& system, double value) {
+  return system.share() == nullptr ? value : max_of_ranks(system.share()->ranks(), value);
+}
+
 [[nodiscard]] inline double least_of_run(const BlockSystem& system, double value) {
   return system.share() == nullptr ? value : min_of_ranks(system.share()->ranks(), value);
 }

@@ -123,12 +123,8 @@ class DynamicStep {
   /// True if blocks have moved so far that ghosts have been found again.
   bool needs_other_ghosts() {
     if (shared_ == nullptr) return false;
-    double farthest = 0.0;
-    const ContactFinder& finder = caches_.contacts.finder();
-    for (const int k : shared_->share->own())
-      if (system_.moving()[at(k)])
-        farthest = std::max(farthest, finder.path(k) - shared_->paths[at(k)] +
-                                          finder.motion_bound(k, problem_.bodies[at(k)].motion()));
+    const double farthest = farthest_path(*shared_, system_, caches_.contacts.finder(),
+                                          [this](int block) { return problem_.bodies[at(block)].motion(); });
     return leave_margin(*shared_, system_, state_, caches_, farthest);
   }
 

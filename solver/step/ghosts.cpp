@@ -246,7 +246,9 @@ void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state,
                      double step) {
   const ContactFinder& finder = caches.contacts.finder();
   const std::vector<BlockState> driven = driven_states(system, state, step);
-  const ExpectedMotion motion = finder.expected_motion(driven.empty() ? state.states : driven, step);
+  // As StepContacts::detect, whose iterations of a static analysis take a second.
+  const ExpectedMotion motion = driven.empty() ? finder.expected_motion(state.states, step)
+                                               : finder.expected_motion(driven, step > 0.0 ? step : 1.0);
   double farthest = 0.0, fastest = 0.0;
   for (const int k : shared.share->own()) {
     if (!system.here(k)) continue;
@@ -257,6 +259,15 @@ void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state,
   if (most[0] <= shared.margin || !std::isfinite(most[1])) return;
   shared.margin = margin_for(*shared.share, most[1]);
   find_ghosts(shared, system, state, caches);
+}
+
+double farthest_path(const SharedBlocks& shared, const BlockSystem& system, const ContactFinder& finder,
+                     const std::function<Eigen::MatrixX3d(int block)>& motion) {
+  double farthest = 0.0;
+  for (const int k : shared.share->own())
+    if (system.moving()[at(k)])
+      farthest = std::max(farthest, finder.path(k) - shared.paths[at(k)] + finder.motion_bound(k, motion(k)));
+  return farthest;
 }
 
 bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,

@@ -58,13 +58,17 @@ void set_block_here(BlockSystem& system, RunState& state, StepCaches& caches, in
 void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches);
 
 /// Finds ghosts again if a block may leave its margin in the coming step. Collective.
-/// @param step s
+/// @param step s; 0: an iteration of a static analysis
 void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                      double step);
 
+/// Largest path of an own block since ghosts were found, m. @param motion by block: change of its position, (p, 3)
+[[nodiscard]] double farthest_path(const SharedBlocks& shared, const BlockSystem& system,
+                                   const ContactFinder& finder,
+                                   const std::function<Eigen::MatrixX3d(int block)>& motion);
+
 /// True if a block of any rank has left its margin in a solved step: then ghosts have been found again, with a margin
-/// for this motion, and contacts have to be detected again. Collective.
-/// @param motions path bound of each own block in the step, m
+/// for this motion, and contacts have to be detected again. Collective. @param farthest farthest_path() of this rank, m
 [[nodiscard]] bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state,
                                 StepCaches& caches, double farthest);
 

@@ -41,6 +41,7 @@ class SharedIslandSystem {
 };
 
 /// Solves the joined island, or a part of it. Collective; the status is the same on all ranks.
+/// @param settings the same on all ranks
 [[nodiscard]] IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
                                                std::vector<BodyStep>& bodies,
                                                const std::vector<ContactPair>& pairs,

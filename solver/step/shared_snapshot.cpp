@@ -26,6 +26,16 @@ void take_block(int block, const SimulationSnapshot& from, SimulationSnapshot& t
   take_value(block, from.run.sleep.rests, to.run.sleep.rests);
   take_value(block, from.finder.tracks, to.finder.tracks);
   take_value(block, from.finder.divisions, to.finder.divisions);
+  const StaticState& statics = from.run.statics;
+  StaticState& taken = to.run.statics;
+  take_value(block, statics.level_start, taken.level_start);
+  take_value(block, statics.progress.positions, taken.progress.positions);
+  take_value(block, statics.progress.forces, taken.progress.forces);
+  take_value(block, statics.progress.displacements, taken.progress.displacements);
+  take_value(block, statics.progress.residuals, taken.progress.residuals);
+  take_value(block, statics.onset.unbalanced, taken.onset.unbalanced);
+  take_value(block, statics.onset.is_compliant, taken.onset.is_compliant);
+  take_value(block, statics.onset.starts, taken.onset.starts);
 }
 
 /// Removes pairs that other ranks tell.
@@ -33,6 +43,8 @@ void keep_own_pairs(const BlockSystem& system, RunState& run) {
   std::erase_if(run.pairs,
                 [&](const auto& entry) { return !system.owns_pair(entry.first[0], entry.first[1]); });
   std::erase_if(run.records, [&](const PairRecord& record) { return !system.owns_pair(record.a, record.b); });
+  std::erase_if(run.statics.onset.sliding,
+                [&](const PairKey& pair) { return !system.owns_pair(pair[0], pair[1]); });
 }
 
 void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
@@ -43,6 +55,9 @@ void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, Simu
     whole.run.sleep.islands[k].held += part.run.sleep.islands.at(k).held;
   whole.run.pairs.merge(part.run.pairs);
   whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
+  std::vector<PairKey>& sliding = whole.run.statics.onset.sliding;
+  const std::vector<PairKey>& others = part.run.statics.onset.sliding;
+  sliding.insert(sliding.end(), others.begin(), others.end());
 }
 
 /// Tracks and divisions of the blocks that a rank has.
@@ -101,6 +116,7 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
   std::sort(part.run.records.begin(), part.run.records.end(), [](const PairRecord& x, const PairRecord& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
   });
+  std::sort(part.run.statics.onset.sliding.begin(), part.run.statics.onset.sliding.end());
   part.run.ledger.set(totals->ledger, balance);
   part.run.report = totals->report;
   part.run.extremes = totals->extremes;
@@ -135,6 +151,20 @@ void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, St
   update_ghost_contacts(system, state);
   for (const PairRecord& record : whole.run.records)
     if (system.here(record.a) && system.here(record.b)) state.records.push_back(record);
+  std::erase_if(state.statics.onset.sliding,
+                [&](const PairKey& pair) { return !system.concerns(pair[0], pair[1]); });
+}
+
+void restore_own(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                 SimulationSnapshot own) {
+  const SimulationSnapshot present = snapshot_of(system, state, caches);
+  for (int k = 0; k < system.count(); ++k)
+    if (!system.owns(k)) take_block(k, present, own);
+  std::erase_if(own.run.pairs, [&](const auto& entry) {
+    return !system.here(entry.first[0]) || !system.here(entry.first[1]);
+  });
+  restore(system, state, caches, own);
+  find_ghosts(shared, system, state, caches);
 }
 
 }  // namespace ashlar

@@ -20,4 +20,9 @@ namespace ashlar {
 void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                   const SimulationSnapshot& whole);
 
+/// Restores a snapshot of the start of the run that this rank took itself, whatever ghosts it had. Collective.
+/// @param own snapshot_of() on this rank, before the first search for contacts
+void restore_own(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                 SimulationSnapshot own);
+
 }  // namespace ashlar

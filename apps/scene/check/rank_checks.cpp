@@ -14,9 +14,8 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
           fmt::format("{} on several ranks, only one is allowed so far: run it without mpiexec", what));
   };
   const SceneAnalysis& analysis = scene.analysis;
-  refuse(analysis.type != SceneAnalysis::Type::dynamic, "analysis.type", "an analysis that is not dynamic");
-  refuse(analysis.initial_state == SceneAnalysis::InitialState::statics, "analysis.initial_state",
-         "a start from statics");
+  refuse(analysis.type != SceneAnalysis::Type::dynamic && analysis.type != SceneAnalysis::Type::statics,
+         "analysis.type", "an analysis that is neither dynamic nor static");
   refuse(analysis.formulation == SceneAnalysis::Formulation::incremental, "analysis.formulation",
          "the incremental formulation");
   refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");

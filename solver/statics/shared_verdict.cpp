@@ -1,0 +1,139 @@
+#include "solver/statics/shared_verdict.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "geometry/index.hpp"
+#include "solver/archived_geometry.hpp"
+#include "solver/statics/rigid_verdict.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A tie as it was requested.
+struct TieOfRank {
+  int a;
+  int b;
+  double stiffness;  ///< Pa/m
+};
+
+/// Answer of the first rank.
+struct ToldVerdict {
+  StaticStatus status = StaticStatus::balancing;
+  std::vector<double> displacements;         ///< by block, if blocks move
+  std::vector<Eigen::MatrixX3d> unbalanced;  ///< likewise
+  std::vector<Eigen::MatrixX3d> positions;   ///< by block, if rigid blocks stand
+  std::vector<PairRecord> records;           ///< likewise
+};
+
+/// All blocks of the run, on one rank.
+struct WholeRun {
+  BlockSystem system;
+  RunState state;
+};
+
+/// @param ties of all ranks
+WholeRun whole_run(const RunContext& run, const std::vector<TieOfRank>& ties) {
+  const BlockSystem& system = run.system;
+  std::vector<BlockModel> blocks;
+  for (int k = 0; k < system.count(); ++k) {
+    const bool known = run.shared->keeps_models || system.here(k) || !system.present(k);
+    blocks.push_back(known ? system.blocks()[at(k)] : run.shared->load(k));
+  }
+  std::vector<TieRequest> requests;
+  for (const TieOfRank& tie : ties) requests.push_back({tie.a, tie.b, tie.stiffness});
+  WholeRun whole{BlockSystem(
+                     std::move(blocks), [&system](int a, int b) { return system.law(a, b); },
+                     system.settings(), requests, system.absent()),
+                 {}};
+  for (const BlockModel& block : whole.system.blocks()) whole.state.states.push_back(block.initial_state());
+  whole.state.clock = run.state.clock;
+  whole.state.remembers_statics = run.state.remembers_statics;
+  whole.state.statics.level_start.resize(at(system.count()));
+  return whole;
+}
+
+ToldVerdict answer_of(WholeRun& whole, double end_time, StaticStatus status) {
+  ToldVerdict told;
+  told.status = rigid_verdict(whole.system, whole.state, end_time, status);
+  if (told.status == status) return told;
+  if (told.status == StaticStatus::moving) {
+    told.displacements = whole.state.statics.progress.displacements;
+    told.unbalanced = whole.state.statics.onset.unbalanced;
+  } else {
+    for (const BlockState& block : whole.state.states) told.positions.push_back(block.position);
+    told.records = whole.state.records;
+  }
+  return told;
+}
+
+void take_motion(const ToldVerdict& told, StaticState& statics) {
+  statics.moving = true;
+  statics.balanced = false;
+  statics.progress.displacements = told.displacements;
+  statics.onset.unbalanced = told.unbalanced;
+  statics.onset.rigid = true;
+}
+
+void take_equilibrium(const BlockSystem& system, const ToldVerdict& told, double end_time, RunState& state) {
+  for (int k = 0; k < system.count(); ++k)
+    if (system.here(k)) state.states[at(k)].position = told.positions[at(k)];
+  state.records.clear();
+  for (const PairRecord& record : told.records)
+    if (system.concerns(record.a, record.b)) state.records.push_back(record);
+  state.statics.balanced = true;
+  state.statics.moving = false;
+  state.clock = {.start = end_time};
+}
+
+}  // namespace
+
+StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus status) {
+  const BlockSystem& system = run.system;
+  const BlockShare& share = *system.share();
+  Ranks& ranks = share.ranks();
+  std::vector<TieOfRank> ties;
+  for (const TiedBlocks& tie : system.ties()) ties.push_back({tie.a, tie.b, tie.stiffness});
+  std::vector<TieOfRank> all_ties;
+  for (const std::vector<TieOfRank>& of_rank : values_of_ranks(ranks, ties))
+    all_ties.insert(all_ties.end(), of_rank.begin(), of_rank.end());
+  const bool first = ranks.own() == 0;
+  std::optional<WholeRun> whole;
+  do_on_all(ranks, [&] {
+    if (first) whole.emplace(whole_run(run, all_ties));
+  });
+  const auto take = [&](int block, Eigen::MatrixX3d position, Eigen::MatrixX3d start) {
+    whole->state.states.at(at(block)).position = std::move(position);
+    whole->state.statics.level_start.at(at(block)) = std::move(start);
+  };
+  const std::vector<Eigen::MatrixX3d>& starts = run.state.statics.level_start;
+  const auto each_own = [&](const auto& visit) {
+    for (const int k : share.own())
+      visit(k, run.state.states[at(k)].position, starts.empty() ? Eigen::MatrixX3d() : starts[at(k)]);
+  };
+  if (first) each_own(take);
+  send_to_first(
+      ranks, [&](ByteWriter& writer) { each_own([&writer](const auto&... values) { writer(values...); }); },
+      [&](ByteReader& reader, int) {
+        while (!reader.at_end()) {
+          int block = -1;
+          Eigen::MatrixX3d position, start;
+          reader(block, position, start);
+          take(block, std::move(position), std::move(start));
+        }
+      });
+  ToldVerdict here;
+  do_on_all(ranks, [&] {
+    if (first && starts.empty()) whole->state.statics.level_start.clear();
+    if (first) here = answer_of(*whole, end_time, status);
+  });
+  const ToldVerdict told = values_of_ranks(ranks, here).front();
+  if (told.status == status) return status;
+  if (told.status == StaticStatus::moving)
+    take_motion(told, run.state.statics);
+  else
+    take_equilibrium(system, told, end_time, run.state);
+  return told.status;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,17 @@
+// The verdict of limit analysis (rigid_verdict.hpp) on a static analysis that several ranks share.
+//
+// The first rank makes the rigid model of all blocks, from their models and the positions that the others send, and
+// tells its answer to all: one small problem, at the end of the analysis (notes/ranks.md has its size).
+#pragma once
+
+#include "solver/statics/static_analysis.hpp"
+#include "solver/step/ghosts.hpp"
+#include "solver/step/run_context.hpp"
+
+namespace ashlar {
+
+/// As rigid_verdict(), for the blocks of this rank. Collective. @param run with ranks
+/// @return the same on all ranks
+[[nodiscard]] StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus status);
+
+}  // namespace ashlar
