@@ -15,7 +15,13 @@
 namespace ashlar {
 namespace {
 
-constexpr int test_interval = 32;  ///< steps
+constexpr int test_interval = 32;           ///< steps
+constexpr double tests_of_analysis = 16.0;  ///< at least: few long steps may all be between two tests
+
+/// True after as many steps, or as much time, as there may be between two tests.
+bool test_is_due(const MotionAccuracyState& state, double time_step, double end_time) {
+  return state.since_test >= test_interval || state.since_test * time_step >= end_time / tests_of_analysis;
+}
 
 double energy_of(const BlockModel& block, const BlockState& state) {
   return block.kinetic_energy(state) + (block.rigid() ? 0.0 : block.elastic(state.position).energy);
@@ -358,7 +364,8 @@ std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const
 void choose_step(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,
                  MotionAccuracyState& state) {
   const std::vector<int> marks = contact_marks(simulation);
-  if (simulation.steps() == 0 || marks != state.contact_marks || state.since_test >= test_interval) {
+  if (simulation.steps() == 0 || marks != state.contact_marks ||
+      test_is_due(state, simulation.system().settings().time_step, request.end_time)) {
     state.since_test = 0;
     StepTests(simulation, request, goals, state).choose();
   }

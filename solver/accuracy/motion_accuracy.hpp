@@ -80,7 +80,8 @@ struct PilotRun {
   AccuracyRound round;
 };
 
-/// Runs to the end, in steps of the settings, and takes it back. A step that cannot be taken ends it.
+/// Runs to the end, in steps of the settings, and takes it back. A step that cannot be taken ends it. Rigid blocks under
+/// constant loads have no vibrations: if 16 and 32 steps give the same scales within 20 % and no impacts, these are enough.
 /// @param goes_on called before each step: false ends it. @return empty if it was ended
 [[nodiscard]] std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time,
                                                 const GoalValues& goals,

@@ -35,7 +35,7 @@ struct ErrorTimeSetting {
 /// Tip of a clamped cantilever (orders_study.hpp) under its weight, with the static analysis of a run.
 [[nodiscard]] double cantilever_error(const ErrorTimeSetting& setting);
 
-/// The crown of a semicircular arch of eight voussoirs under its weight, with friction. There is no closed form: errors
+/// The crown of a semicircular arch of eight voussoirs under its weight, with friction and springs in its joints. There is no closed form: errors
 /// are relative to arch_reference(). A chosen run includes the run afterwards that starts from the voussoirs as placed.
 [[nodiscard]] double arch_error(const ErrorTimeSetting& setting);
 /// Voussoirs of order 6, with the same contacts, computed by this program.

@@ -328,7 +328,7 @@ std::string add_arch(const ErrorTimeStudySize& size, ErrorTimeCurves& curves) {
   const ArchReference reference = arch_reference();
   curves.start(9, "voussoirs of one order");
   for (int order = 1; order <= 4; ++order) curves.add({order}, arch_error);
-  curves.over_accuracies(9, {}, arch_error, 3);
+  curves.over_accuracies(9, {}, arch_error, 2);
   return fmt::format(
       "arch: no closed form; errors are relative to this program's own orders 6, which sink "
       "{:.4g} mm at the crown, {:.1e} from orders 5: smaller errors mean nothing",
