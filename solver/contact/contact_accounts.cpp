@@ -12,20 +12,35 @@ double book(double work, double& account) {
   return beyond;
 }
 
-IslandFunds::IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands)
-    : islands_(std::move(islands)), own_(islands_.size(), 0.0) {
+IslandFunds::IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands,
+                         const SharedAccounts* shared)
+    : islands_(std::move(islands)), before_(islands_.size()) {
   std::set<PairKey> owned;
   for (std::size_t island = 0; island < islands_.size(); ++island) {
     for (const PairKey& pair : islands_[island]) {
       owned.insert(pair);
-      own_[island] += history_of(histories, pair).taken;
+      before_[island].energy += history_of(histories, pair).taken;
     }
+    before_[island].pairs = static_cast<double>(islands_[island].size());
   }
   for (const auto& [pair, history] : histories) {
-    if (owned.count(pair) > 0) continue;
+    if (owned.count(pair) > 0 || (shared != nullptr && !shared->owns(pair))) continue;
     others_.push_back(pair);
-    common_ += history.taken;
+    common_before_.energy += history.taken;
   }
+  common_before_.pairs = static_cast<double>(others_.size());
+  if (shared != nullptr) sum_over(*shared);
+  for (const Sum& sum : before_) own_.push_back(sum.energy);
+  common_ = common_before_.energy;
+}
+
+void IslandFunds::sum_over(const SharedAccounts& shared) {
+  std::vector<double> sums = {common_before_.energy, common_before_.pairs};
+  for (const Sum& sum : before_) sums.insert(sums.end(), {sum.energy, sum.pairs});
+  sums = shared.sum(sums);
+  common_before_ = {sums[0], sums[1]};
+  for (std::size_t island = 0; island < before_.size(); ++island)
+    before_[island] = {sums[2 * island + 2], sums[2 * island + 3]};
 }
 
 double IslandFunds::available(std::size_t island) const {
@@ -37,17 +52,16 @@ void IslandFunds::use(std::size_t island, double energy) {
 }
 
 void IslandFunds::spend_from(PairHistories& histories) const {
-  const auto set_sum = [&](const std::vector<PairKey>& pairs, double sum) {
-    double before = 0.0;
-    for (const PairKey& pair : pairs) before += histories[pair].taken;
-    if (sum == before) return;
+  const auto set_sum = [&](const std::vector<PairKey>& pairs, const Sum& before, double sum) {
+    if (sum == before.energy) return;
     for (const PairKey& pair : pairs) {
       double& account = histories[pair].taken;
-      account = before > 0.0 ? account / before * sum : sum / static_cast<double>(pairs.size());
+      account = before.energy > 0.0 ? account / before.energy * sum : sum / before.pairs;
     }
   };
-  for (std::size_t island = 0; island < islands_.size(); ++island) set_sum(islands_[island], own_[island]);
-  set_sum(others_, common_);
+  for (std::size_t island = 0; island < islands_.size(); ++island)
+    set_sum(islands_[island], before_[island], own_[island]);
+  set_sum(others_, common_before_, common_);
 }
 
 }  // namespace ashlar

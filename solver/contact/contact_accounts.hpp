@@ -3,6 +3,7 @@
 // (position_projection.cpp) uses the accounts of the pairs of their island first, then those of pairs in no island.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "solver/contact/pair_history.hpp"
@@ -13,12 +14,21 @@ namespace ashlar {
 /// @return energy released beyond the account, J, >= 0: the account is empty then
 [[nodiscard]] double book(double work, double& account);
 
+/// The accounts of a run that ranks share.
+struct SharedAccounts {
+  std::function<bool(const PairKey&)> owns;  ///< pairs whose accounts this rank keeps
+  std::function<std::vector<double>(const std::vector<double>& values)> sum;  ///< over ranks
+};
+
 /// Energy that islands may use: each all accounts of its own pairs, then the accounts of pairs in no island as far as
 /// earlier islands have left them. The accounts change in spend_from() only.
 class IslandFunds {
  public:
   /// @param islands pairs of each, none in two
-  IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands);
+  /// @param shared null: one rank has all accounts. Otherwise collective: islands are the same on all ranks, each with the
+  /// pairs that this rank owns, and all ranks use the same energies
+  IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands,
+              const SharedAccounts* shared = nullptr);
   /// Available energy, J, >= 0.
   [[nodiscard]] double available(std::size_t island) const;
   /// @param energy J, at most the available one; negative: added to the island's own
@@ -29,8 +39,17 @@ class IslandFunds {
   void spend_from(PairHistories& histories) const;
 
  private:
+  /// Accounts of all ranks before anything is used.
+  struct Sum {
+    double energy = 0.0;  ///< J
+    double pairs = 0.0;   ///< their number
+  };
+  void sum_over(const SharedAccounts& shared);
+
   std::vector<std::vector<PairKey>> islands_;
   std::vector<PairKey> others_;  ///< pairs in no island
+  std::vector<Sum> before_;      ///< of each island
+  Sum common_before_;            ///< of pairs in no island
   std::vector<double> own_;      ///< remaining energy of each island's own, J
   double common_ = 0.0;          ///< remaining energy of pairs in no island, J
 };

@@ -36,7 +36,6 @@ Simulation::Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& mo
                        const SimulationSettings& settings, const std::vector<TieRequest>& ties)
     : Simulation(std::move(blocks.shared), std::move(blocks.blocks), motions, std::move(law), settings, ties,
                  {}) {
-  if (settings.augmented) refuse_ranks("multipliers (contact.augmented)");
   do_on_all(system_.share()->ranks(), [this] {
     for (const BlockModel& block : system_.blocks()) {
       if (block.incremental() != nullptr) refuse_ranks("incremental blocks");

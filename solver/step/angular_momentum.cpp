@@ -45,31 +45,70 @@ Vector3 angular_momentum_of(const std::vector<BlockModel>& blocks, const std::ve
   return sum;
 }
 
+double Spin::share_within(double limit) const {
+  if (!(linear + square > limit)) return 1.0;
+  const double root = std::sqrt(linear * linear + 4.0 * square * limit);
+  return linear > 0.0 ? 2.0 * limit / (linear + root) : (root - linear) / (2.0 * square);
+}
+
+void Spin::add(double share, const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+               std::vector<BlockState>& states) const {
+  for (const int k : body)
+    states[at(k)].velocity += turning_field(share * angular, arms_of(blocks[at(k)], states[at(k)], centroid));
+}
+
+std::vector<Spin> spins_of(const std::vector<BlockModel>& blocks, const std::vector<std::vector<int>>& bodies,
+                           const std::vector<Vector3>& angular_momenta, const std::vector<BlockState>& states,
+                           const SumOverRanks& sum) {
+  const auto count = static_cast<Eigen::Index>(bodies.size());
+  std::vector<Spin> spins(bodies.size());
+  const auto each = [&](const auto& act) {
+    for (std::size_t n = 0; n < bodies.size(); ++n)
+      for (const int k : bodies[n]) act(n, static_cast<Eigen::Index>(n), k);
+  };
+  const auto sum_up = [&sum](Eigen::MatrixXd& values) {
+    if (sum) sum(values);
+  };
+  Eigen::MatrixXd masses = Eigen::MatrixXd::Zero(4, count);  // mass and its moment
+  each([&](std::size_t, Eigen::Index column, int k) {
+    const double mass = blocks[at(k)].mass();
+    masses(0, column) += mass;
+    masses.col(column).tail<3>() += mass * mean_of(states[at(k)].position, blocks[at(k)].basis().volume());
+  });
+  sum_up(masses);
+  for (Eigen::Index n = 0; n < count; ++n)
+    spins[static_cast<std::size_t>(n)].centroid = masses.col(n).tail<3>() / masses(0, n);
+  Eigen::MatrixXd inertias = Eigen::MatrixXd::Zero(9, count);
+  each([&](std::size_t n, Eigen::Index column, int k) {
+    const Eigen::Matrix3d inertia = blocks[at(k)].material().density *
+                                    unit_inertia(arms_of(blocks[at(k)], states[at(k)], spins[n].centroid));
+    inertias.col(column) += inertia.reshaped();
+  });
+  sum_up(inertias);
+  for (std::size_t n = 0; n < spins.size(); ++n) {
+    const Eigen::Matrix3d inertia = inertias.col(static_cast<Eigen::Index>(n)).reshaped(3, 3);
+    // A moment lost in the rounding of the largest one, as that of a needle about its axis, gives no spin.
+    spins[n].angular = inertia.completeOrthogonalDecomposition().solve(angular_momenta[n]);
+    spins[n].square = 0.5 * spins[n].angular.dot(angular_momenta[n]);
+  }
+  Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(1, count);
+  each([&](std::size_t n, Eigen::Index column, int k) {
+    linear(0, column) +=
+        blocks[at(k)].material().density *
+        spins[n].angular.dot(integral_of_cross(arms_of(blocks[at(k)], states[at(k)], spins[n].centroid),
+                                               states[at(k)].velocity));
+  });
+  sum_up(linear);
+  for (std::size_t n = 0; n < spins.size(); ++n) spins[n].linear = linear(0, static_cast<Eigen::Index>(n));
+  return spins;
+}
+
 double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
                 const Vector3& angular_momentum, double limit, std::vector<BlockState>& states) {
-  const Vector3 centroid = centroid_of(blocks, body, states);
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (const int k : body) {
-    inertia +=
-        blocks[at(k)].material().density * unit_inertia(arms_of(blocks[at(k)], states[at(k)], centroid));
-  }
-  // A moment lost in the rounding of the largest one, as that of a needle about its axis, gives no spin.
-  const Vector3 spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
-  // The gain of kinetic energy is  linear s + square s^2  with the share s of the spin.
-  double linear = 0.0;
-  const double square = 0.5 * spin.dot(angular_momentum);
-  for (const int k : body)
-    linear +=
-        blocks[at(k)].material().density *
-        spin.dot(integral_of_cross(arms_of(blocks[at(k)], states[at(k)], centroid), states[at(k)].velocity));
-  double share = 1.0;
-  if (linear + square > limit) {
-    const double root = std::sqrt(linear * linear + 4.0 * square * limit);
-    share = linear > 0.0 ? 2.0 * limit / (linear + root) : (root - linear) / (2.0 * square);
-  }
-  for (const int k : body)
-    states[at(k)].velocity += turning_field(share * spin, arms_of(blocks[at(k)], states[at(k)], centroid));
-  return share * (linear + share * square);
+  const Spin spin = spins_of(blocks, {body}, {angular_momentum}, states).front();
+  const double share = spin.share_within(limit);
+  spin.add(share, blocks, body, states);
+  return spin.gain(share);
 }
 
 }  // namespace ashlar

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
@@ -37,6 +38,31 @@ namespace ashlar {
 /// Angular momentum of a body about the origin, kg m^2/s. @param body indices
 [[nodiscard]] Vector3 angular_momentum_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
                                           const std::vector<BlockState>& states);
+
+/// A rigid rotation of a body about its centroid. A share s of it adds  linear s + square s^2  to the kinetic energy.
+struct Spin {
+  Vector3 centroid = Vector3::Zero();  ///< m
+  Vector3 angular = Vector3::Zero();   ///< rad/s
+  double linear = 0.0;                 ///< J
+  double square = 0.0;                 ///< J, >= 0
+
+  [[nodiscard]] double gain(double share) const { return share * (linear + share * square); }
+  /// Largest share that gains at most this energy, <= 1. @param limit J, >= 0
+  [[nodiscard]] double share_within(double limit) const;
+  /// Adds a share to the velocities of blocks of the body. @param body indices
+  void add(double share, const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+           std::vector<BlockState>& states) const;
+};
+
+/// Sums values over ranks, in place. @param values a column for each body
+using SumOverRanks = std::function<void(Eigen::MatrixXd& values)>;
+
+/// Spins that give bodies an angular momentum. @param bodies indices of the blocks of each; on a rank its own blocks
+/// @param angular_momenta gained by each, kg m^2/s. @param sum empty: bodies are whole here
+[[nodiscard]] std::vector<Spin> spins_of(const std::vector<BlockModel>& blocks,
+                                         const std::vector<std::vector<int>>& bodies,
+                                         const std::vector<Vector3>& angular_momenta,
+                                         const std::vector<BlockState>& states, const SumOverRanks& sum = {});
 
 /// Adds a rigid rotation about the common centroid of blocks to their velocities, scaled down if it would exceed a
 /// limit of energy. @param body indices. @param angular_momentum gained, kg m^2/s

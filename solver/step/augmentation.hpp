@@ -13,9 +13,10 @@ namespace ashlar {
 class Augmentation {
  public:
   /// Stiffens springs as the balanced forces require, or lowers multipliers if no spring is too soft.
-  /// @param problem the same in each call. @return true if anything has changed
+  /// @param problem the same in each call. @return true if anything has changed, on any rank that shares the island
   bool adjust(IslandProblem& problem) {
-    return problem.ranks().any(stiffen(problem)) || problem.ranks().any(lower_multipliers(problem));
+    const IslandRanks& ranks = problem.ranks();
+    return ranks.any(stiffen(problem)) || ranks.any(lower_multipliers(problem));
   }
 
  private:

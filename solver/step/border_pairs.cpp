@@ -17,7 +17,8 @@ namespace {
 /// A recipe as sent: without rows, which the receiver computes, and without cached contacts that it has.
 struct PairMessage {
   PairKey blocks = {-1, -1};
-  bool kept = false;  ///< contacts are those of the cache sent last
+  bool kept =
+      false;  ///< contacts are those of the cache sent last; besides the blocks only the start is sent
   JointLaw law;
   std::vector<ContactPoint> points;
   std::vector<PressureCut> cuts;
@@ -70,7 +71,7 @@ std::vector<PairRecipe> BorderPairs::exchange(const BlockSystem& system, const R
       const bool kept = recipe.start.continues && sent != nullptr && sent == recipe.patch.cache;
       sent = recipe.patch.cache;
       if (kept) {
-        writer(PairMessage{recipe.blocks, true, {}, {}, {}, {}, nullptr, {}, {}});
+        writer(PairMessage{recipe.blocks, true, {}, {}, {}, {}, nullptr, {}, recipe.start});
       } else {
         writer(PairMessage{recipe.blocks, false, recipe.law, recipe.patch.points, recipe.patch.cuts,
                            recipe.patch.turning, recipe.patch.cache, recipe.memory, recipe.start});
@@ -78,7 +79,8 @@ std::vector<PairRecipe> BorderPairs::exchange(const BlockSystem& system, const R
     }
   };
   std::vector<PairRecipe> received;
-  const auto kept_again = [&](const PairKey& blocks) {
+  const auto kept_again = [&](const PairMessage& message) {
+    const PairKey& blocks = message.blocks;
     const auto known = received_.find(blocks);
     const auto any_motion = [](const Eigen::MatrixX3d&) { return 0.0; };
     const std::optional<KeptContacts> kept =
@@ -88,14 +90,17 @@ std::vector<PairRecipe> BorderPairs::exchange(const BlockSystem& system, const R
                             body_of(system, state, blocks[1]), law_of(blocks),
                             {std::numeric_limits<double>::infinity(), 0.0}, {any_motion, any_motion});
     if (!kept) throw std::logic_error("contacts of blocks of two ranks are not the same on both");
-    return kept_recipe(state, blocks, *kept, law_of(blocks));
+    PairRecipe recipe = kept_recipe(state, blocks, *kept, law_of(blocks));
+    // Only the owner of a pair has its account.
+    recipe.start = message.start;
+    return recipe;
   };
   const auto read = [&](ByteReader& reader, int) {
     while (!reader.at_end()) {
       PairMessage message;
       reader(message);
       if (message.kept) {
-        received.push_back(kept_again(message.blocks));
+        received.push_back(kept_again(message));
         continue;
       }
       const BlockModel& a = system.blocks()[at(message.blocks[0])];

@@ -87,9 +87,13 @@ class DynamicStep {
     problem_.pairs = caches_.contacts.pairs(system_, state_, problem_.found, PairUse::motion);
     while (wake_touched(system_, state_, problem_.pairs)) detect();
     while (moves_ < most && too_deep(system_, state_, problem_.pairs)) {
-      if (!unmoved_) unmoved_ = snapshot_of(system_, state_, caches_);
+      if (!unmoved_) {
+        unmoved_ = snapshot_of(system_, state_, caches_);
+        if (shared_ != nullptr) ghosts_of_unmoved_ = ghosts_now(*shared_);
+      }
       if (!project_positions(system_, state_, caches_, step_, problem_)) break;
       ++moves_;
+      if (shared_ != nullptr) (void)leave_margin(*shared_, system_, state_, caches_);
       do {
         detect();
       } while (wake_touched(system_, state_, problem_.pairs));
@@ -99,12 +103,15 @@ class DynamicStep {
   /// Impacts at the start of the step. Blocks that are struck may strike others at once: no more often than there are
   /// pairs.
   void rebound_from_touches() {
-    for (std::size_t most = problem_.pairs.size(); most > 0 && rebound(system_, state_, problem_.pairs);
-         --most) {
+    const auto pairs_here = static_cast<double>(problem_.pairs.size());
+    if (!rebound(system_, state_, problem_.pairs)) return;
+    double most = sum_of_run(system_, pairs_here);
+    do {
       do {
         detect();
       } while (wake_touched(system_, state_, problem_.pairs));
-    }
+      most -= 1.0;
+    } while (most > 0.0 && rebound(system_, state_, problem_.pairs));
   }
 
   void detect() {
@@ -166,6 +173,7 @@ class DynamicStep {
     if (moves_ == 0) return;
     unmoved_->run.log = state_.log;
     unmoved_->run.log.counts = counts_of(state_, caches_);
+    if (shared_ != nullptr) restore_ghosts(*shared_, system_, state_, caches_, ghosts_of_unmoved_);
     restore(system_, state_, caches_, *unmoved_);
   }
 
@@ -177,6 +185,7 @@ class DynamicStep {
   double step_;  ///< s
   StepProblem problem_;
   std::optional<SimulationSnapshot> unmoved_;  ///< before blocks were separated
+  GhostsThen ghosts_of_unmoved_;               ///< of a run that ranks share
   int moves_ = 0;
   int cuts_ = 0;
   int additions_ = 0;

@@ -162,23 +162,11 @@ void set_here(BlockSystem& system, RunState& state, StepCaches& caches, int bloc
   state.sleep.rests[at(block)] = {};
 }
 
-}  // namespace
-
-void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches) {
+/// Replaces the ghosts of this rank. Collective. @param after increasing
+void change_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                   const std::vector<int>& after) {
   BlockShare& share = *shared.share;
-  const ContactFinder& finder = caches.contacts.finder();
-  std::vector<BlockBox> boxes;
-  for (const int k : share.own()) {
-    if (!system.here(k)) continue;
-    const BlockSurface& surface = finder.surfaces()[at(k)];
-    boxes.push_back({k,
-                     box_along(share.axes(), surface.points(state.states[at(k)]))
-                         .grown(surface.bulge(state.states[at(k)])),
-                     system.blocks()[at(k)].fixed()});
-  }
-  const double reach = max_of_ranks(share.ranks(), reach_of(system.settings(), state));
   const std::vector<int> before = share.ghosts();
-  const std::vector<int> after = ghosts_of(share, boxes, reach + 2.0 * shared.margin);
   share.set_ghosts(after);
   std::vector<int> gone, come;
   std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(gone));
@@ -194,6 +182,24 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
     set_here(system, state, caches, come[k], std::move(models[k]), true);
   hold_sleepers(system, state.sleep);
   caches.contacts.forget_border_pairs();
+}
+
+}  // namespace
+
+void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches) {
+  BlockShare& share = *shared.share;
+  const ContactFinder& finder = caches.contacts.finder();
+  std::vector<BlockBox> boxes;
+  for (const int k : share.own()) {
+    if (!system.here(k)) continue;
+    const BlockSurface& surface = finder.surfaces()[at(k)];
+    boxes.push_back({k,
+                     box_along(share.axes(), surface.points(state.states[at(k)]))
+                         .grown(surface.bulge(state.states[at(k)])),
+                     system.blocks()[at(k)].fixed()});
+  }
+  const double reach = max_of_ranks(share.ranks(), reach_of(system.settings(), state));
+  change_ghosts(shared, system, state, caches, ghosts_of(share, boxes, reach + 2.0 * shared.margin));
   update_ghosts(system, state);
   update_ghost_contacts(system, state);
   for (int k = 0; k < system.count(); ++k) shared.paths[at(k)] = finder.path(k);
@@ -266,6 +272,25 @@ bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state, St
   shared.margin = margin_for(*shared.share, most);
   find_ghosts(shared, system, state, caches);
   return true;
+}
+
+bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches) {
+  double farthest = 0.0;
+  for (const int k : shared.share->own())
+    if (system.moving()[at(k)])
+      farthest = std::max(farthest, caches.contacts.finder().path(k) - shared.paths[at(k)]);
+  return leave_margin(shared, system, state, caches, farthest);
+}
+
+GhostsThen ghosts_now(const SharedBlocks& shared) {
+  return {shared.share->ghosts(), shared.margin, shared.paths};
+}
+
+void restore_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                    const GhostsThen& then) {
+  change_ghosts(shared, system, state, caches, then.ghosts);
+  shared.margin = then.margin;
+  shared.paths = then.paths;
 }
 
 void update_ghost_contacts(const BlockSystem& system, RunState& state) {

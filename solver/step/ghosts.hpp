@@ -63,6 +63,21 @@ void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state,
 [[nodiscard]] bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state,
                                 StepCaches& caches, double farthest);
 
+/// True if blocks of any rank have left their margin since ghosts were found; then as above. Collective.
+[[nodiscard]] bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state,
+                                StepCaches& caches);
+
+/// Ghosts at some time of a run, to be restored with a snapshot of one rank.
+struct GhostsThen {
+  std::vector<int> ghosts;
+  double margin = 0.0;
+  std::vector<double> paths;
+};
+[[nodiscard]] GhostsThen ghosts_now(const SharedBlocks& shared);
+/// Restores ghosts, whose states are to be restored then. Collective.
+void restore_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                    const GhostsThen& then);
+
 /// Gives ghosts the state of their owners. Collective.
 void update_ghosts(const BlockSystem& system, RunState& state);
 

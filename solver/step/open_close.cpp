@@ -125,8 +125,9 @@ class OpenClose {
       Residual residual = next_residual();
       // From rest, the residual of the initial guess is within the last iteration's bound of rounding errors, which
       // is wide.
+      const bool no_bodies = residual.force.size() == 0 && !problem_.ranks().shared();
       if (residual.converged() &&
-          (residual.force.size() == 0 || !(problem_.scheme().is_static() && result_.iterations == 1))) {
+          (no_bodies || !(problem_.scheme().is_static() && result_.iterations == 1))) {
         known_residual_ = std::move(residual);
         return Outcome::converged;
       }

@@ -16,11 +16,11 @@
 
 namespace ashlar {
 
-/// True if multipliers hold points so deep that a step could leave them beyond the penetration tolerance.
+/// True if multipliers hold points so deep that a step could leave them beyond the penetration tolerance. Collective.
 [[nodiscard]] bool too_deep(const BlockSystem& system, const RunState& state,
                             const std::vector<ContactPair>& pairs);
 
-/// Separates the blocks of such points before the step that a problem is for.
+/// Separates the blocks of such points before the step that a problem is for. Collective.
 /// @param step s. @param problem its contacts and pairs are replaced if blocks would pass through each other on the
 /// way, at most settings.multipliers.moves_apart times
 /// @return true if any block was moved: contacts have to be detected again

@@ -20,13 +20,13 @@
 
 namespace ashlar {
 
-/// Share of a solved step that ends just before the first impact in it; empty: there is none.
+/// Share of a solved step that ends just before the first impact in it; empty: there is none. Collective.
 /// @param step its length, s
 [[nodiscard]] std::optional<double> share_until_impact(const BlockSystem& system, const RunState& state,
                                                        double step, const StepProblem& problem);
 
 /// Applies the impulses of blocks that are about to touch at the start of a step: changes velocities and books the
-/// loss. @return true if there were any
+/// loss. Collective. @return true if there were any
 /// @throws std::runtime_error if the impulses do not converge: nothing has changed then
 bool rebound(const BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs);
 

@@ -172,9 +172,9 @@ std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
   return first;
 }
 
-IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
-                                 std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-                                 const TimeScheme& scheme, const SimulationSettings& settings) {
+SharedIslandSystem::SharedIslandSystem(const BlockSystem& system, const Island& island,
+                                       const std::vector<BodyStep>& bodies,
+                                       const std::vector<ContactPair>& pairs) {
   const BlockShare& share = *system.share();
   std::map<int, int> place;
   std::vector<int> sizes, starts = {0};
@@ -192,13 +192,28 @@ IslandResult solve_shared_island(const BlockSystem& system, const Island& island
     const auto b = place.find(pair.b());
     if (a != place.end() && b != place.end()) links.push_back({a->second, b->second});
   }
-  const IslandRanks ranks(share, island.bodies, starts, std::move(owns_pair));
-  IslandSolvers::Entry solver{sizes, links, BlockMatrix(sizes, links),
-                              std::make_unique<SharedIslandSolver>(share, island, bodies, starts, ranks)};
+  ranks_ = std::make_unique<const IslandRanks>(share, island.bodies, starts, std::move(owns_pair));
+  solver_ = std::make_unique<IslandSolvers::Entry>(
+      IslandSolvers::Entry{sizes, links, BlockMatrix(sizes, links),
+                           std::make_unique<SharedIslandSolver>(share, island, bodies, starts, *ranks_)});
+}
+
+SharedIslandSystem::~SharedIslandSystem() = default;
+
+IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
+                                 std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
+                                 const TimeScheme& scheme, const SimulationSettings& settings) {
+  SharedIslandSystem linear(system, island, bodies, pairs);
   IslandResult result;
-  IslandProblem problem(island, bodies, pairs, scheme, settings, solver, ranks);
+  IslandProblem problem(island, bodies, pairs, scheme, settings, linear.solver(), linear.ranks());
   iterate_open_close(problem, result);
   return result;
+}
+
+void update_ghost_changes(const BlockSystem& system, std::vector<BodyStep>& bodies) {
+  system.share()->to_ghosts(
+      [&](int block) { return system.moving()[at(block)] ? &bodies[at(block)].change : nullptr; },
+      [&](int block, Eigen::VectorXd change) { bodies[at(block)].change = std::move(change); });
 }
 
 }  // namespace ashlar

@@ -22,11 +22,31 @@ namespace ashlar {
 [[nodiscard]] std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
                                               const std::vector<ContactPair>& pairs);
 
-/// Solves the joined island. Collective; the status is the same on all ranks.
-/// @param settings the same on all ranks
+/// The linear system of the joined island, solved by BlockShare::solver().
+class SharedIslandSystem {
+ public:
+  /// All but the scheme and the settings of IslandProblem. The arguments must outlive this.
+  SharedIslandSystem(const BlockSystem& system, const Island& island, const std::vector<BodyStep>& bodies,
+                     const std::vector<ContactPair>& pairs);
+  ~SharedIslandSystem();
+  SharedIslandSystem(const SharedIslandSystem&) = delete;
+  SharedIslandSystem& operator=(const SharedIslandSystem&) = delete;
+
+  [[nodiscard]] const IslandRanks& ranks() const { return *ranks_; }
+  [[nodiscard]] IslandSolvers::Entry& solver() { return *solver_; }
+
+ private:
+  std::unique_ptr<const IslandRanks> ranks_;
+  std::unique_ptr<IslandSolvers::Entry> solver_;
+};
+
+/// Solves the joined island, or a part of it. Collective; the status is the same on all ranks.
 [[nodiscard]] IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
                                                std::vector<BodyStep>& bodies,
                                                const std::vector<ContactPair>& pairs,
                                                const TimeScheme& scheme, const SimulationSettings& settings);
+
+/// Gives moving ghosts the changes of their owners. Collective.
+void update_ghost_changes(const BlockSystem& system, std::vector<BodyStep>& bodies);
 
 }  // namespace ashlar

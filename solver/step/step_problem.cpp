@@ -73,10 +73,8 @@ std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& 
 
 /// Gets the changes of ghosts. @return the worst status of any rank
 IslandStatus agree_on_end(const BlockSystem& system, IslandStatus status, std::vector<BodyStep>& bodies) {
-  const BlockShare& share = *system.share();
-  share.to_ghosts([&](int block) { return system.moving()[at(block)] ? &bodies[at(block)].change : nullptr; },
-                  [&](int block, Eigen::VectorXd change) { bodies[at(block)].change = std::move(change); });
-  return static_cast<IslandStatus>(max_of_ranks(share.ranks(), static_cast<double>(status)));
+  update_ghost_changes(system, bodies);
+  return static_cast<IslandStatus>(max_of_ranks(system.share()->ranks(), static_cast<double>(status)));
 }
 
 }  // namespace

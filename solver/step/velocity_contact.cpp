@@ -1,17 +1,26 @@
 #include "solver/step/velocity_contact.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <optional>
 
 #include "geometry/index.hpp"
-#include "solver/contact/contact_accounts.hpp"
-#include "solver/step/angular_momentum.hpp"
+#include "solver/step/agreement.hpp"
+#include "solver/step/ghosts.hpp"
 #include "solver/step/island_equations.hpp"
+#include "solver/step/island_parts.hpp"
 #include "solver/step/island_tangent.hpp"
+#include "solver/step/shared_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
 namespace {
+
+/// Loss of kinetic energy and angular momentum by the impulses on a part of an island.
+struct ImpulseLoss {
+  bool stopped = false;                ///< false: there were no impulses
+  double energy = 0.0;                 ///< J
+  Vector3 momentum = Vector3::Zero();  ///< kg m^2/s
+};
 
 /// Releases points whose tensile impulse would exceed their compressive one. @return true if there are any
 bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs, const IslandResult& result,
@@ -44,29 +53,6 @@ void act_at_end(const Island& island, const std::vector<ContactPair>& pairs, con
   }
 }
 
-}  // namespace
-
-bool is_free(const BlockSystem& system, const Island& island, const std::vector<ContactPair>& pairs) {
-  const auto in_free_body = [&](int block) {
-    return std::any_of(system.free_bodies().begin(), system.free_bodies().end(),
-                       [&](const std::vector<int>& body) {
-                         return std::find(body.begin(), body.end(), block) != body.end();
-                       });
-  };
-  return std::all_of(island.bodies.begin(), island.bodies.end(), in_free_body) &&
-         std::all_of(island.pairs.begin(), island.pairs.end(),
-                     [&](int index) {
-                       return system.moving()[at(pairs[at(index)].a())] &&
-                              system.moving()[at(pairs[at(index)].b())];
-                     }) &&
-         std::all_of(island.bolts.begin(), island.bolts.end(), [&](const StepBolt* bolt) {
-           return std::all_of(bolt->blocks().begin(), bolt->blocks().end(),
-                              [&](int block) { return system.moving()[at(block)]; });
-         });
-}
-
-namespace {
-
 /// A step whose blocks have been moved.
 struct EndedStep {
   const BlockSystem& system;
@@ -89,7 +75,8 @@ EndedStep ended_step(const BlockSystem& system, RunState& state, const StepProbl
 /// The impulses of one island.
 class IslandImpulses {
  public:
-  IslandImpulses(EndedStep& ended, std::size_t island, IslandSolvers& solvers)
+  /// @param ranks of the solver
+  IslandImpulses(EndedStep& ended, std::size_t island, IslandSolvers::Entry& solver, const IslandRanks& ranks)
       : system_(ended.system),
         state_(ended.state),
         step_(ended.problem.scheme.step),
@@ -98,8 +85,7 @@ class IslandImpulses {
         result_(ended.problem.results[island]),
         bodies_(ended.bodies),
         scheme_(impulsive(step_)),
-        problem_(island_, bodies_, pairs_, scheme_, system_.settings(),
-                 solver_of(island_, bodies_, pairs_, SystemRole::stop, solvers)),
+        problem_(island_, bodies_, pairs_, scheme_, system_.settings(), solver, ranks),
         velocities_(bodies_.size()) {
     const TimeScheme& of_step = ended.problem.scheme;
     act_at_end(island_, pairs_, result_, bodies_, problem_);
@@ -119,38 +105,42 @@ class IslandImpulses {
       problem_.apply(tangent.solve(problem_.contact_forces(), false), 1.0);
       for (const int k : island_.bodies) velocities_[at(k)] += bodies_[at(k)].change;
       found_ = impulses();
-    } while (let_go_of_pulls(island_, pairs_, result_, found_, let_go_));
+    } while (problem_.ranks().any(let_go_of_pulls(island_, pairs_, result_, found_, let_go_)));
     return true;
   }
 
-  /// Changes velocities and books their energy loss. @param stopped of the island's pairs is written
-  void apply(std::vector<StoppedPair>& stopped) {
+  /// Changes velocities. @param stopped of the island's pairs, and losses of its parts, are written
+  void apply(const PartsOfRun& parts, std::vector<StoppedPair>& stopped, std::vector<ImpulseLoss>& losses) {
     const std::vector<BlockModel>& blocks = system_.blocks();
     std::vector<BlockState>& states = state_.states;
-    const Vector3 momentum = angular_momentum_of(blocks, island_.bodies, states);
-    double lost = 0.0;
+    const auto each_part = [&](const auto& act) {
+      for (const std::size_t k : parts.of_island(island_))
+        act(losses[k], angular_momentum_of(blocks, parts.parts[k].bodies, states));
+    };
+    each_part([](ImpulseLoss& loss, const Vector3& momentum) { loss = {true, 0.0, momentum}; });
     for (const int k : island_.bodies) {
       const BlockModel& block = blocks[at(k)];
-      lost += block.kinetic_energy(states[at(k)]);
+      const double before = block.kinetic_energy(states[at(k)]);
       states[at(k)].velocity += block.space().expand(bodies_[at(k)].change) / step_;
+      if (!system_.owns(k)) continue;
+      double& lost = losses[parts.part_of(k)].energy;
+      lost += before;
       lost -= block.kinetic_energy(states[at(k)]);
     }
     // Mean velocities over the impulse determine its work.
     for (const int k : island_.bodies)
       velocities_[at(k)] =
           step_ * blocks[at(k)].space().restrict(states[at(k)].velocity) - 0.5 * bodies_[at(k)].change;
-    for (std::size_t n = 0; n < island_.pairs.size(); ++n) lost -= record(n, stopped[at(island_.pairs[n])]);
-    if (is_free(system_, island_, pairs_)) {
-      // Opposite impulses act at places that differ by the gap.
-      const Vector3 missing = momentum - angular_momentum_of(blocks, island_.bodies, states);
-      const double own = std::max(0.0, lost);
-      IslandFunds funds(state_.pairs, {contacts_of(island_, pairs_)});
-      const double gain = add_spin(blocks, island_.bodies, missing, own + funds.available(0), states);
-      funds.use(0, std::max(0.0, gain - own));
-      funds.spend_from(state_.pairs);
-      lost -= gain;
+    for (std::size_t n = 0; n < island_.pairs.size(); ++n) {
+      const ContactPair& pair = problem_.pair(n);
+      const double of_supports = record(n, stopped[at(island_.pairs[n])]);
+      if (!system_.owns_pair(pair.a(), pair.b())) continue;
+      state_.ledger.loads_did(-of_supports);
+      const int block = system_.moving()[at(pair.a())] ? pair.a() : pair.b();
+      losses[parts.part_of(block)].energy -= of_supports;
     }
-    state_.ledger.integrator_took(lost);
+    // Opposite impulses act at places that differ by the gap.
+    each_part([](ImpulseLoss& loss, const Vector3& momentum) { loss.momentum -= momentum; });
   }
 
  private:
@@ -196,9 +186,7 @@ class IslandImpulses {
     for (std::size_t k = 0; k < points.size(); ++k)
       stopped.forces.push_back(in_frame(points[k], out_of_frame(pair.points()[k], found_[n].means[k].force)));
     stopped.work = pair.work(found_[n], velocities_[at(pair.a())], velocities_[at(pair.b())]);
-    const double of_supports = pair.prescribed_work(found_[n]);
-    state_.ledger.loads_did(-of_supports);
-    return of_supports;
+    return pair.prescribed_work(found_[n]);
   }
 
   const BlockSystem& system_;
@@ -215,6 +203,67 @@ class IslandImpulses {
   std::vector<PairResponse> found_;
 };
 
+/// Impulses of one island. @param is_shared true: of the joined one, collective
+void stop_island(EndedStep& ended, std::size_t n, bool is_shared, IslandSolvers& solvers,
+                 const PartsOfRun& parts, std::vector<StoppedPair>& stopped,
+                 std::vector<ImpulseLoss>& losses) {
+  const StepProblem& problem = ended.problem;
+  const Island& island = problem.islands[n];
+  const IslandResult& result = problem.results[n];
+  bool pushes = false;
+  for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
+    pushes = problem.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
+  std::optional<SharedIslandSystem> linear;
+  if (is_shared) {
+    pushes = any_of_run(ended.system, pushes);
+    if (pushes) linear.emplace(ended.system, island, ended.bodies, problem.pairs);
+  }
+  if (!pushes) return;
+  IslandSolvers::Entry& solver =
+      linear ? linear->solver() : solver_of(island, ended.bodies, problem.pairs, SystemRole::stop, solvers);
+  IslandImpulses stop(ended, n, solver, linear ? linear->ranks() : IslandRanks::one_rank());
+  if (stop.find()) stop.apply(parts, stopped, losses);
+}
+
+/// Returns the angular momentum of free islands, for energy that impulses and contacts have dissipated, and books losses.
+void book_losses(const BlockSystem& system, RunState& state, const std::vector<IslandPart>& parts,
+                 const std::vector<ImpulseLoss>& losses) {
+  Eigen::MatrixXd sums(6, static_cast<Eigen::Index>(parts.size()));  // stopped, not free, energy, momentum
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    sums.col(static_cast<Eigen::Index>(k)) << (losses[k].stopped ? 1.0 : 0.0), (parts[k].free ? 0.0 : 1.0),
+        losses[k].energy, losses[k].momentum;
+  sum_of_run(system, sums);
+  std::vector<std::vector<int>> bodies;
+  std::vector<Vector3> momenta;
+  const auto spins_at = [&](Eigen::Index k) { return sums(0, k) > 0.0 && sums(1, k) == 0.0; };
+  for (Eigen::Index k = 0; k < sums.cols(); ++k) {
+    if (!spins_at(k)) continue;
+    bodies.push_back(parts[static_cast<std::size_t>(k)].bodies);
+    momenta.emplace_back(sums.col(k).tail<3>());
+  }
+  const std::vector<Spin> spins =
+      spins_of(system.blocks(), bodies, momenta, state.states, summed_over_ranks(system));
+  const std::optional<SharedAccounts> shared = shared_accounts(system);
+  for (std::size_t k = 0, next = 0; k < parts.size(); ++k) {
+    double lost = losses[k].energy;
+    if (spins_at(static_cast<Eigen::Index>(k))) {
+      const Spin& spin = spins[next];
+      const double own = std::max(0.0, sums(2, static_cast<Eigen::Index>(k)));
+      double share = 1.0;
+      if (spin.gain(1.0) > own) {
+        IslandFunds funds(state.pairs, {parts[k].contacts}, shared ? &*shared : nullptr);
+        share = spin.share_within(own + funds.available(0));
+        funds.use(0, std::max(0.0, spin.gain(share) - own));
+        funds.spend_from(state.pairs);
+      }
+      spin.add(share, system.blocks(), bodies[next++], state.states);
+      // Energies of the whole island are booked by one rank.
+      if (system.owns(parts[k].first)) lost -= spin.gain(share);
+    }
+    if (losses[k].stopped) state.ledger.integrator_took(lost);
+  }
+}
+
 }  // namespace
 
 std::vector<StoppedPair> stop_at_contacts(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
@@ -223,16 +272,12 @@ std::vector<StoppedPair> stop_at_contacts(const BlockSystem& system, RunState& s
   std::vector<StoppedPair> stopped(problem.pairs.size());
   if (!system.settings().augmented || problem.scheme.is_static()) return stopped;
   EndedStep ended = ended_step(system, state, problem);
-  for (std::size_t n = 0; n < problem.islands.size(); ++n) {
-    const Island& island = problem.islands[n];
-    const IslandResult& result = problem.results[n];
-    bool pushes = false;
-    for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
-      pushes = problem.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
-    if (!pushes) continue;
-    IslandImpulses stop(ended, n, solvers);
-    if (stop.find()) stop.apply(stopped);
-  }
+  const PartsOfRun parts(system, problem.islands, problem.shared, problem.pairs);
+  std::vector<ImpulseLoss> losses(parts.parts.size());
+  for (std::size_t n = 0; n < problem.islands.size(); ++n)
+    stop_island(ended, n, static_cast<int>(n) == problem.shared, solvers, parts, stopped, losses);
+  book_losses(system, state, parts.parts, losses);
+  if (system.share() != nullptr) update_ghosts(system, state);
   return stopped;
 }
 

@@ -38,12 +38,8 @@ struct StoppedPair {
 };
 
 /// Stops approaching points at the end of a step whose blocks have been moved. Changes velocities and books their
-/// energy loss. @return by pair of the problem
+/// energy loss. With several ranks collective. @return by pair of the problem
 [[nodiscard]] std::vector<StoppedPair> stop_at_contacts(const BlockSystem& system, RunState& state,
                                                         IslandSolvers& solvers, const StepProblem& problem);
-
-/// True if only its own blocks, gravity and loads act on an island.
-[[nodiscard]] bool is_free(const BlockSystem& system, const Island& island,
-                           const std::vector<ContactPair>& pairs);
 
 }  // namespace ashlar

@@ -19,7 +19,6 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   refuse(analysis.formulation == SceneAnalysis::Formulation::incremental, "analysis.formulation",
          "the incremental formulation");
   refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
-  refuse(has_multipliers(scene), "contact.augmented", "contact by multipliers");
   refuse(scene.contact.allowed_overlap > 0.0, "contact.allowed_overlap", "an initial overlap");
   refuse(!scene.stage.empty(), "stage.0", "a staged analysis");
   refuse(!scene.bolt.empty(), "bolt.0", "bolts");
@@ -29,9 +28,7 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const std::string joint = fmt::format("joint.{}", k);
     refuse(scene.joint[k].tied.value_or(false), joint + ".tied", "blocks tied to each other");
-    refuse(scene.joint[k].restitution.has_value(), joint + ".restitution", "a coefficient of restitution");
   }
-  refuse(scene.contact.law.restitution.has_value(), "contact.restitution", "a coefficient of restitution");
 }
 
 }  // namespace ashlar

@@ -1,0 +1,37 @@
+// Rigid motions of blocks, and of contact points with them, for impacts (restitution.hpp).
+#pragma once
+
+#include <Eigen/Dense>
+#include <map>
+#include <vector>
+
+#include "geometry/index.hpp"
+#include "solver/step/step_problem.hpp"
+
+namespace ashlar {
+
+/// Rigid motions and velocities of blocks, computed on first use.
+class RigidMotions {
+ public:
+  RigidMotions(const BlockSystem& system, const std::vector<BlockState>& states)
+      : system_(system), states_(states) {}
+
+  [[nodiscard]] bool moves(int block) const { return system_.moving()[at(block)]; }
+  /// Rigid motions that the supports of a block leave, orthonormal. @return (unknowns, at most 6)
+  const Eigen::MatrixXd& modes(int block);
+  /// Rigid part of the velocity of the unknowns; zero of a block that does not move.
+  Eigen::VectorXd velocity(int block);
+  /// Velocity by moving supports, (p, 3); empty: none.
+  [[nodiscard]] Eigen::MatrixX3d driven_velocity(int block) const;
+  /// Relative velocities of a pair's points along normals and tangents, m/s. @return (3, #points)
+  Eigen::Matrix3Xd at_points(const ContactPair& pair);
+  /// Accelerations of a pair's points by gravity and loads, along their normals, m/s^2.
+  [[nodiscard]] Eigen::RowVectorXd accelerations(const ContactPair& pair, const StepProblem& problem) const;
+
+ private:
+  const BlockSystem& system_;
+  const std::vector<BlockState>& states_;
+  std::map<int, Eigen::MatrixXd> modes_;
+};
+
+}  // namespace ashlar
