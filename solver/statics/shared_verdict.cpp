@@ -93,7 +93,8 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
   const BlockShare& share = *system.share();
   Ranks& ranks = share.ranks();
   std::vector<TieOfRank> ties;
-  for (const TiedBlocks& tie : system.ties()) ties.push_back({tie.a, tie.b, tie.stiffness});
+  for (const TiedBlocks& tie : system.ties())
+    if (system.owns_pair(tie.a, tie.b)) ties.push_back({tie.a, tie.b, tie.stiffness});
   std::vector<TieOfRank> all_ties;
   for (const std::vector<TieOfRank>& of_rank : values_of_ranks(ranks, ties))
     all_ties.insert(all_ties.end(), of_rank.begin(), of_rank.end());

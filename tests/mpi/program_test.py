@@ -186,12 +186,12 @@ measure = [{ name = "storey", drift = { blocks = ["wall.*"], heights = [0.1, 0.5
                 self.expect_same_place(found[2], row, f"{count} ranks")
         return expected
 
-    def write_wall(self, analysis, push, history=""):
+    def write_wall(self, analysis, push, history="", augmented="false"):
         """A wall in bond. A brick of its second course is pushed across with a force, N."""
         scene = self.folder / "wall.toml"
         scene.write_text(f'''
 analysis = {{ {analysis} }}
-contact = {{ friction_angle = 30, normal_stiffness = 1e9, shear_stiffness = 5e8, augmented = false }}
+contact = {{ friction_angle = 30, normal_stiffness = 1e9, shear_stiffness = 5e8, augmented = {augmented} }}
 material = [{{ name = "brick", density = 2000, young_modulus = 5e9, poisson_ratio = 0.2 }}]
 block = [{{ name = "ground", fixed = true, box = {{ min = [-1, -1, -0.2], max = [5, 1, 0] }} }}]
 masonry = [{{ name = "wall", kind = "wall", material = "brick", length = 2, height = 0.6, brick = [0.5, 0.25, 0.15] }}]
@@ -206,8 +206,8 @@ measure = [{{ name = "storey", drift = {{ blocks = ["wall.*"], heights = [0.1, 0
         self.assertEqual(summary["status"], "equilibrium")
 
     def test_a_pushed_wall_has_the_same_verdict_on_many_ranks(self):
-        for push, status in ((100, "equilibrium"), (3000, "moving")):
-            scene = self.write_wall('type = "static"', push)
+        for push, status, augmented in ((100, "equilibrium", "false"), (100, "equilibrium", "true"), (3000, "moving", "true")):
+            scene = self.write_wall('type = "static"', push, augmented=augmented)
             summary = self.expect_same_statics(scene, [2, 4], "--force")
             self.assertEqual(summary["status"], status)
 

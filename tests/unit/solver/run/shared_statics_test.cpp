@@ -186,6 +186,23 @@ TEST(SharedStatics, AWallStandsAlikeOnAnyNumberOfRanks) {
   }
 }
 
+/// Multipliers hold points within the penetration tolerance of where the path of the iteration leaves them.
+TEST(SharedStatics, MultipliersHoldAWallAndAnArchAlike) {
+  for (Placed scene : {wall(4, 4), arch(13)}) {
+    scene.settings.augmented = true;
+    scene.settings.multipliers.penetration_tolerance = 2e-7;
+    const End alone = static_alone(scene);
+    ASSERT_EQ(alone.status, StaticStatus::equilibrium);
+    for (const int ranks : {2, 4}) {
+      const End shared = static_shared(scene, scene.owners(ranks), ranks);
+      EXPECT_EQ(shared.status, StaticStatus::equilibrium);
+      EXPECT_LT(distance(alone.states, shared.states), scene.settings.multipliers.penetration_tolerance);
+      EXPECT_LT((force_on(alone.contacts, 0) - force_on(shared.contacts, 0)).norm(),
+                1e-4 * force_on(alone.contacts, 0).norm());
+    }
+  }
+}
+
 TEST(SharedStatics, CurvedAndRigidBlocksStandAlike) {
   for (const int order : {0, 2}) {
     const Placed scene = wall(2, 2, order);
