@@ -49,6 +49,7 @@ class RunRow:
     wall: float        # s per step, of all phases
     phases: dict
     imbalance: float
+    memory: int        # bytes, of the largest rank
     rows: list
 
 
@@ -95,7 +96,7 @@ def rows_of(name, ranks, summary):
             own=rank["processor_seconds"]["own_part"] / steps, shared=rank["processor_seconds"]["shared_systems"] / steps,
             waiting=rank["processor_seconds"]["in_messages"] / steps, memory=rank["peak_memory_bytes"]))
     return RunRow(name, ranks, summary["blocks"], steps, sum(phases.values()), phases,
-                  summary.get("rank_imbalance", 0.0), rows)
+                  summary.get("rank_imbalance", 0.0), max([row.memory for row in rows] or [summary.get("peak_memory_bytes", 0)]), rows)
 
 
 def run(mpiexec, ashlar, name, ranks, steps, longest):
@@ -133,7 +134,7 @@ def times_table(runs):
         result.append((run_row.scene, run_row.all_blocks, run_row.ranks, f"{run_row.wall:.3g}",
                        f"{first.wall / run_row.wall:.2f}",
                        *(f"{run_row.phases.get(phase, 0.0):.3g}" for phase in ("contact_search", "contact_points", "solve")),
-                       f"{100 * run_row.imbalance:.0f} %", f"{most(run_row.rows, 'memory') / 2**20:.0f}"))
+                       f"{100 * run_row.imbalance:.0f} %", f"{run_row.memory / 2**20:.0f}"))
     return table(("scene", "blocks", "ranks", "step, s", "speed-up", "search", "points", "solve", "imbalance",
                   "memory of a rank, MiB"), result)
 
