@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "solver/processor_watch.hpp"
 #include "solver/stopwatch.hpp"
+#include "solver/system/processor_watch.hpp"
 
 namespace ashlar {
 FactorStatus MeasuredSolver::factorize(const std::vector<BodyRows>& rows) {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/processor_watch.hpp"
 #include "solver/stopwatch.hpp"
+#include "solver/system/processor_watch.hpp"
 
 namespace ashlar {
 namespace {

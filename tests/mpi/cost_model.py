@@ -1,10 +1,12 @@
 """A model of the time of a step on several ranks, fitted to runs of scaling.py.
 
 Of one rank, for a step:
-    own      = block * (own blocks) + ghost * ghosts + point * (contact points made) * (iterations)     processor time
+    own      = start + block * (own blocks) + ghost * ghosts + point * (contact points made) * (iterations)
+               of processor time; start is that of the program over the steps of a run, which a long run does not have
     memory   = base + of_own * (own blocks + ghosts) + of_all * (all blocks)
-    bytes    = per_ghost * ghosts + per_call * (ranks - 1) * calls             sent, without results and checkpoints
-    calls    = first + per_iteration * iterations                              collective functions
+    bytes    = per_ghost * ghosts + per_solution * ghosts * solutions + per_call * (ranks - 1) * calls
+               sent, without results and checkpoints
+    calls    = first + per_iteration * iterations + per_solution * solutions    of collective functions
 and of the run
     step = largest own + solutions * linear + calls * latency * log2(ranks) + bytes / bandwidth
            + (share of steps that look for ghosts) * box_bytes * (all blocks) / bandwidth
@@ -54,10 +56,12 @@ def worst(rows, values, x):
 
 # Fitted quantities by name: regressors and value of a rank of a run (scaling.RankRow).
 FITS = {
-    "own": (("block", "ghost", "point"), lambda r: (r.blocks, r.ghosts, r.points * r.iterations), lambda r: r.own),
+    "own": (("start", "block", "ghost", "point"), lambda r: (1.0, r.blocks, r.ghosts, r.points * r.iterations),
+            lambda r: r.own),
     "memory": (("base", "of_own", "of_all"), lambda r: (1.0, r.blocks + r.ghosts, r.all_blocks), lambda r: r.memory),
-    "bytes": (("per_ghost", "per_call"), lambda r: (r.ghosts, (r.ranks - 1) * r.calls), lambda r: r.bytes),
-    "calls": (("first", "per_iteration"), lambda r: (1.0, r.iterations), lambda r: r.calls),
+    "bytes": (("per_ghost", "per_solution", "per_call"),
+              lambda r: (r.ghosts, r.ghosts * r.solutions, (r.ranks - 1) * r.calls), lambda r: r.bytes),
+    "calls": (("first", "per_iteration", "per_solution"), lambda r: (1.0, r.iterations, r.solutions), lambda r: r.calls),
 }
 
 
@@ -87,7 +91,9 @@ def step_on(fit, blocks, ranks, per_block, unknowns=12, searches=0.02, assumed=N
     hops = math.log2(ranks) if ranks > 1 else 0.0
     of = {name: values for name, (values, _) in fit.items()}
     calls = of["calls"]["first"] + of["calls"]["per_iteration"] * per_block["iterations"]
-    sent = of["bytes"]["per_ghost"] * ghosts + of["bytes"]["per_call"] * (ranks - 1) * calls
+    calls += of["calls"]["per_solution"] * per_block["solutions"]
+    sent = (of["bytes"]["per_ghost"] + of["bytes"]["per_solution"] * per_block["solutions"]) * ghosts
+    sent += of["bytes"]["per_call"] * (ranks - 1) * calls
     linear = unknowns * own * (a["set_up"] + a["gradient_iterations"] * a["per_iteration"])
     linear += a["gradient_iterations"] * 3 * a["latency"] * hops
     return {

@@ -1,7 +1,7 @@
 """Scaling of runs on several ranks: strong, weak, counts of a rank up to many ranks, and a fitted model of a step.
 
 Use: scaling.py MPIEXEC ASHLAR [--scenes wall:10,wall:20,cube:6] [--ranks 1,2,4] [--many 8,16,32,64] [--many-scene wall:10]
-     [--weak wall:10@1,wall:14@2,wall:20@4] [--steps 5] [--markdown FILE]
+     [--weak wall:10@1,wall:14@2,wall:20@4] [--steps 5] [--longest SECONDS] [--markdown FILE]
 MPIEXEC is a command, e.g. "mpiexec --oversubscribe --bind-to none". wall:N is a wall of N courses of N bricks, cube:N a
 cube cut by three joint sets into N^3 blocks. --many runs a scene on more ranks than there are cores: its counts are
 those of as many cores, its times are not.
@@ -16,8 +16,6 @@ import sys
 import tempfile
 
 import cost_model
-
-LONGEST = 3600  # s
 
 
 @dataclasses.dataclass
@@ -51,6 +49,7 @@ class RunRow:
     wall: float        # s per step, of all phases
     phases: dict
     imbalance: float
+    memory: int        # bytes, of the largest rank
     rows: list
 
 
@@ -97,17 +96,17 @@ def rows_of(name, ranks, summary):
             own=rank["processor_seconds"]["own_part"] / steps, shared=rank["processor_seconds"]["shared_systems"] / steps,
             waiting=rank["processor_seconds"]["in_messages"] / steps, memory=rank["peak_memory_bytes"]))
     return RunRow(name, ranks, summary["blocks"], steps, sum(phases.values()), phases,
-                  summary.get("rank_imbalance", 0.0), rows)
+                  summary.get("rank_imbalance", 0.0), max([row.memory for row in rows] or [summary.get("peak_memory_bytes", 0)]), rows)
 
 
-def run(mpiexec, ashlar, name, ranks, steps):
+def run(mpiexec, ashlar, name, ranks, steps, longest):
     with tempfile.TemporaryDirectory() as kept:
         folder = pathlib.Path(kept)
         scene = folder / "scene.toml"
         scene.write_text(scene_text(name, steps), encoding="utf-8")
         words = [*shlex.split(mpiexec), "-n", str(ranks), ashlar, "run", str(scene), "--quiet", "--checkpoint", "1e9",
                  "--out", str(folder / "out")]
-        done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=LONGEST)
+        done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=longest)
         if done.returncode != 0:
             raise RuntimeError(f"{name} on {ranks} ranks: status {done.returncode}\n{done.stderr}")
         summary = json.loads((folder / "out" / "summary.json").read_text(encoding="utf-8"))
@@ -135,7 +134,7 @@ def times_table(runs):
         result.append((run_row.scene, run_row.all_blocks, run_row.ranks, f"{run_row.wall:.3g}",
                        f"{first.wall / run_row.wall:.2f}",
                        *(f"{run_row.phases.get(phase, 0.0):.3g}" for phase in ("contact_search", "contact_points", "solve")),
-                       f"{100 * run_row.imbalance:.0f} %", f"{most(run_row.rows, 'memory') / 2**20:.0f}"))
+                       f"{100 * run_row.imbalance:.0f} %", f"{run_row.memory / 2**20:.0f}"))
     return table(("scene", "blocks", "ranks", "step, s", "speed-up", "search", "points", "solve", "imbalance",
                   "memory of a rank, MiB"), result)
 
@@ -195,11 +194,19 @@ def main():
     parser.add_argument("--many-scene", default="wall:10")
     parser.add_argument("--weak", default="wall:10@1,wall:14@2,wall:20@4", type=listed)
     parser.add_argument("--steps", default=5, type=int)
+    parser.add_argument("--longest", default=3600, type=float, help="seconds of a run")
     parser.add_argument("--markdown", type=pathlib.Path)
     options = parser.parse_args()
 
     def runs(cases):
-        return [run(options.mpiexec, options.ashlar, name, ranks, options.steps) for name, ranks in cases]
+        """Those that ended well: one that has failed is told, and left out."""
+        done = []
+        for name, ranks in cases:
+            try:
+                done.append(run(options.mpiexec, options.ashlar, name, ranks, options.steps, options.longest))
+            except (RuntimeError, subprocess.TimeoutExpired) as error:
+                print(f"{name} on {ranks} is left out: {error}", file=sys.stderr, flush=True)
+        return done
 
     strong = runs([(name, ranks) for name in options.scenes for ranks in options.ranks])
     weak = runs([(name, int(ranks)) for name, ranks in (case.split("@") for case in options.weak)])

@@ -6,32 +6,35 @@ import cost_model
 import scaling
 
 
-def row(ranks, blocks, ghosts, points, iterations, own, memory, sent, calls):
+def row(ranks, blocks, ghosts, points, iterations, solutions, own, memory, sent, calls):
     return scaling.RankRow(scene="cube:1", ranks=ranks, all_blocks=blocks * ranks, blocks=blocks, ghosts=ghosts, points=points,
-                           iterations=iterations, unknowns=12 * blocks, solutions=iterations, calls=calls, messages=0,
+                           iterations=iterations, unknowns=12 * blocks, solutions=solutions, calls=calls, messages=0,
                            bytes=sent, result_bytes=0, own=own, shared=0, waiting=0, memory=memory)
 
 
 def exact_rows():
-    """2e-4 s a block, 1e-4 s a ghost, 3e-6 s a point and iteration; 50 MB, 20 kB a block and ghost, 3 kB of each block
-    of the run; 700 bytes a ghost, 16 a call and other rank; 40 calls and 12 an iteration."""
+    """0.05 s, 2e-4 s a block, 1e-4 s a ghost, 3e-6 s a point and iteration; 50 MB, 20 kB a block and ghost, 3 kB of each
+    block of the run; 700 bytes a ghost and 100 in each solution, 16 a call and other rank; 20 calls, 4 an iteration, 8 a
+    solution."""
     rows = []
-    for ranks, blocks, ghosts, iterations in ((2, 50, 10, 5), (4, 30, 22, 6), (8, 20, 31, 5), (64, 10, 40, 9), (2, 400, 60, 4)):
+    for ranks, blocks, ghosts, iterations, solutions in ((2, 50, 10, 5, 5), (4, 30, 22, 6, 9), (8, 20, 31, 5, 30), (64, 10, 40, 9, 3),
+                                                         (2, 400, 60, 4, 2), (2, 90, 5, 3, 8), (16, 5, 60, 12, 20)):
         points = 90 * blocks
-        calls = 40 + 12 * iterations
-        rows.append(row(ranks, blocks, ghosts, points, iterations,
-                        own=2e-4 * blocks + 1e-4 * ghosts + 3e-6 * points * iterations,
+        calls = 20 + 4 * iterations + 8 * solutions
+        rows.append(row(ranks, blocks, ghosts, points, iterations, solutions,
+                        own=0.05 + 2e-4 * blocks + 1e-4 * ghosts + 3e-6 * points * iterations,
                         memory=5e7 + 2e4 * (blocks + ghosts) + 3e3 * blocks * ranks,
-                        sent=700 * ghosts + 16 * (ranks - 1) * calls, calls=calls))
+                        sent=(700 + 100 * solutions) * ghosts + 16 * (ranks - 1) * calls, calls=calls))
     return rows
 
 
 class FitTest(unittest.TestCase):
     def test_coefficients_of_exact_rows(self):
         fit = cost_model.fitted(exact_rows())
-        expected = {"own": {"block": 2e-4, "ghost": 1e-4, "point": 3e-6},
+        expected = {"own": {"start": 0.05, "block": 2e-4, "ghost": 1e-4, "point": 3e-6},
                     "memory": {"base": 5e7, "of_own": 2e4, "of_all": 3e3},
-                    "bytes": {"per_ghost": 700, "per_call": 16}, "calls": {"first": 40, "per_iteration": 12}}
+                    "bytes": {"per_ghost": 700, "per_solution": 100, "per_call": 16},
+                    "calls": {"first": 20, "per_iteration": 4, "per_solution": 8}}
         for quantity, values in expected.items():
             found, error = fit[quantity]
             self.assertLess(error, 1e-6, quantity)
@@ -60,9 +63,9 @@ class StepTest(unittest.TestCase):
         step = cost_model.step_on(fit, 8000, 8, {"points": 90, "iterations": 5, "solutions": 5}, searches=1.0, assumed={
             "latency": 1e-6, "bandwidth": 1e9, "set_up": 1e-4, "per_iteration": 1e-6, "gradient_iterations": 100,
             "box_bytes": 50})
-        # 1000 blocks and 728 ghosts a rank, 3 hops; 100 calls.
+        # 1000 blocks and 728 ghosts a rank, 3 hops; 20 + 4 * 5 + 8 * 5 = 80 calls.
         expected = {"own part": 0.2 + 0.0728 + 3e-6 * 90000 * 5, "linear systems": 5 * (12000 * 2e-4 + 100 * 3 * 3e-6),
-                    "waiting for collective calls": 100 * 3e-6, "bytes": (700 * 728 + 16 * 7 * 100) / 1e9,
+                    "waiting for collective calls": 80 * 3e-6, "bytes": (1200 * 728 + 16 * 7 * 80) / 1e9,
                     "search for ghosts": 50 * 8000 / 1e9, "memory": 5e7 + 2e4 * 1728 + 3e3 * 8000}
         self.assertEqual(step.keys(), expected.keys())
         for part, value in expected.items():

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/processor_watch.hpp"
+#include "solver/system/processor_watch.hpp"
 
 namespace ashlar {
 namespace {
