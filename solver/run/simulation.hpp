@@ -54,8 +54,8 @@ class Simulation {
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
              std::vector<bool> absent = {});
   /// The part of one rank in a simulation that several ranks share (step/ghosts.hpp, notes/ranks.md): dynamics of
-  /// contacts with springs or multipliers. Steps are then collective, and have the same status on all ranks. Sums over blocks, pairs
-  /// and points are those of this rank; gathered_run.hpp has those of the run.
+  /// contacts with springs or multipliers. Steps are then collective, and have the same status on all ranks. Sums over
+  /// blocks, pairs and points are those of this rank; gathered_run.hpp has those of the run.
   /// @param blocks share_blocks(). Others as above, the same on all ranks
   /// @throws std::invalid_argument for what several ranks cannot do yet
   Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
