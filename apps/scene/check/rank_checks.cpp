@@ -25,7 +25,6 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   refuse(!scene.bolt.empty(), "bolt.0", "bolts");
   refuse(!scene.prop.empty(), "prop.0", "props");
   refuse(!scene.boundary.empty(), "boundary.0", "boundaries");
-  refuse(scene.initial_stress.given(), "initial_stress", "initial stress");
 }
 
 }  // namespace ashlar

@@ -313,5 +313,26 @@ TEST(SharedSimulation, TiedBlocksOfSeveralRanksFallAlike) {
   }
 }
 
+/// A wall under a stress in all directions that nothing outside balances: it moves apart.
+TEST(SharedSimulation, BlocksUnderStressStartAlike) {
+  for (const bool augmented : {false, true}) {
+    Scene scene = wall(3, 6);
+    scene.stressed = true;
+    scene.settings.augmented = augmented;
+    for (BlockDefinition& block : scene.blocks)
+      block.initial_stress = [](const Vector3& place) -> Eigen::Matrix3d {
+        return Vector3(-2e4, -1e3, -1e4 - 1e3 * place.z()).asDiagonal();
+      };
+    const End alone = run_alone(scene, 30);
+    ASSERT_GT(alone.totals.ledger.kinetic, augmented ? 1e-8 : 1e-3);  // multipliers hold no energy
+    for (const int ranks : {2, 3}) {
+      const End shared = run_shared(scene, owners_of(scene, ranks), ranks, 30);
+      EXPECT_LT(distance(alone, shared), 1e-8);
+      EXPECT_NEAR(alone.totals.ledger.balance(), shared.totals.ledger.balance(),
+                  1e-8 * std::abs(alone.totals.ledger.gravity));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ashlar::shared_simulation_test
