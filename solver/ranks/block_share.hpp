@@ -47,6 +47,10 @@ class BlockShare {
   /// @param of vector of a lent block; null: none is sent. @param take a ghost and its vector
   void to_ghosts(const std::function<const Eigen::VectorXd*(int block)>& of,
                  const std::function<void(int block, Eigen::VectorXd value)>& take) const;
+  /// Sets of tied blocks of several ranks that rotate together, supported by contacts only, the same on all ranks.
+  [[nodiscard]] const std::vector<std::vector<int>>& shared_bodies() const { return shared_bodies_; }
+  void set_shared_bodies(std::vector<std::vector<int>> bodies) { shared_bodies_ = std::move(bodies); }
+
   /// Exchanges messages with the ranks that have ghosts of this one or own ghosts of it. Collective.
   /// @param write (archive, receiver). @param read (archive, sender), of messages that are not empty
   void exchange(const std::function<void(ByteWriter& writer, int rank)>& write,
@@ -75,6 +79,7 @@ class BlockShare {
   std::vector<std::vector<int>> lent_;  ///< by rank
   std::vector<PlacedVolume> places_;
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();
+  std::vector<std::vector<int>> shared_bodies_;
 };
 
 }  // namespace ashlar

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/index.hpp"
+#include "solver/ranks/block_share.hpp"
 #include "solver/step/step_contacts.hpp"
 
 namespace ashlar {
@@ -64,7 +65,7 @@ class BlockForces {
   [[nodiscard]] std::optional<StressImbalance> worst(const BlockSystem& system) const {
     std::optional<StressImbalance> result;
     for (int k = 0; k < system.count(); ++k) {
-      if (!system.moving()[at(k)] || system.is_tied(k)) continue;
+      if (!system.moving()[at(k)] || !system.owns(k) || system.is_tied(k)) continue;
       if (size_[at(k)] == 0.0) continue;
       // Supports give what is missing along the axes that they hold.
       Vector3 missing = sum_[at(k)];
@@ -83,12 +84,13 @@ class BlockForces {
 
 }  // namespace
 
-StressedContacts contacts_under_stress(const BlockSystem& system, RunState& state) {
-  StressedContacts result;
-  BlockForces forces(system, state.time());
-  StepContacts contacts(system);
-  const std::vector<FoundContacts> found = contacts.detect(system, state, 0.0);
-  for (const ContactPair& pair : contacts.pairs(system, state, found, PairUse::statics)) {
+namespace {
+
+/// Loads the points of pairs. @param forces are added to
+std::map<PairKey, ContactMemory> loaded_contacts(const BlockSystem& system,
+                                                 const std::vector<ContactPair>& pairs, BlockForces& forces) {
+  std::map<PairKey, ContactMemory> contacts;
+  for (const ContactPair& pair : pairs) {
     if (pair.tied()) continue;
     std::vector<PointMemory> memory = pair.memory();
     SpringEnergy energy;
@@ -104,10 +106,39 @@ StressedContacts contacts_under_stress(const BlockSystem& system, RunState& stat
       forces.add(pair.b(), -force);
     }
     if (!any) continue;
-    ContactMemory& of_pair = result.contacts[{pair.a(), pair.b()}];
-    of_pair.store(pair.points(), std::move(memory), pair.depth_found(), energy);
+    contacts[{pair.a(), pair.b()}].store(pair.points(), std::move(memory), pair.depth_found(), energy);
   }
-  result.worst = forces.worst(system);
+  return contacts;
+}
+
+/// The largest share of all ranks, of equal ones that of the lowest block. Collective.
+std::optional<StressImbalance> worst_of_run(const BlockSystem& system, std::optional<StressImbalance> here) {
+  if (system.share() == nullptr) return here;
+  std::optional<StressImbalance> worst;
+  for (const auto& of_rank : values_of_ranks(system.share()->ranks(), here)) {
+    if (!of_rank) continue;
+    if (!worst || of_rank->share > worst->share ||
+        (of_rank->share == worst->share && of_rank->block < worst->block))
+      worst = of_rank;
+  }
+  return worst;
+}
+
+}  // namespace
+
+StressedContacts contacts_under_stress(const BlockSystem& system, RunState& state) {
+  StressedContacts result;
+  BlockForces forces(system, state.time());
+  StepContacts contacts(system);
+  const std::vector<FoundContacts> found = contacts.detect(system, state, 0.0);
+  const std::vector<ContactPair> pairs = contacts.pairs(system, state, found, PairUse::statics);
+  const auto load = [&] { result.contacts = loaded_contacts(system, pairs, forces); };
+  // Stresses may have no value somewhere.
+  if (system.share() == nullptr)
+    load();
+  else
+    do_on_all(system.share()->ranks(), load);
+  result.worst = worst_of_run(system, forces.worst(system));
   return result;
 }
 

@@ -66,12 +66,20 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   asked_gradients_.resize(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
   std::vector<PairKey> tied;
+  const auto make = [&] { tied = make_ties(ties); };
+  if (share_ == nullptr)
+    make();
+  else
+    do_on_all(share_->ranks(), make);
+  find_free_bodies(tied);
+}
+
+std::vector<PairKey> BlockSystem::make_ties(const std::vector<TieRequest>& ties) {
+  std::vector<PairKey> tied;
   for (const auto& [a, b, stiffness] : ties) {
-    if (share_ != nullptr && share_->owner(a) != share_->owner(b))
-      throw std::invalid_argument("blocks of two ranks cannot be tied yet: run it on one rank");
     // Ghosts may come later.
     if (share_ != nullptr) left_out_.insert({a, b});
-    if (!here(a) || !here(b) || !owns(a)) continue;
+    if (!here(a) || !here(b) || !concerns(a, b)) continue;
     const BlockModel& block_a = blocks_[at(a)];
     const BlockModel& block_b = blocks_[at(b)];
     if (block_a.incremental() != nullptr || block_b.incremental() != nullptr)
@@ -80,12 +88,35 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     Tie tie = tie_between(block_a.solid(), block_a.basis(), block_b.solid(), block_b.basis());
     if (tie.area == 0.0) continue;
     ties_.push_back({a, b, std::make_shared<const Tie>(std::move(tie)), stiffness});
-    tied.push_back({a, b});
+    if (owns_pair(a, b)) tied.push_back({a, b});
   }
-  free_bodies_ = ashlar::free_bodies(blocks_, tied);
-  std::erase_if(free_bodies_, [this](const std::vector<int>& body) {
-    return !present(body.front()) || !owns(body.front());
-  });
+  return tied;
+}
+
+void BlockSystem::find_free_bodies(const std::vector<PairKey>& tied) {
+  if (share_ == nullptr || share_->ranks().alone()) {
+    free_bodies_ = ashlar::free_bodies(blocks_, tied);
+    std::erase_if(free_bodies_, [this](const std::vector<int>& body) { return !present(body.front()); });
+    return;
+  }
+  std::vector<PairKey> all_tied;
+  for (const std::vector<PairKey>& of_rank : values_of_ranks(share_->ranks(), tied))
+    all_tied.insert(all_tied.end(), of_rank.begin(), of_rank.end());
+  std::vector<int> held;
+  for (const int k : share_->own())
+    if (!present(k) || !may_turn_freely(blocks_[at(k)])) held.push_back(k);
+  std::vector<bool> free(blocks_.size(), true);
+  for (const std::vector<int>& of_rank : values_of_ranks(share_->ranks(), held))
+    for (const int k : of_rank) free[at(k)] = false;
+  std::vector<std::vector<int>> shared;
+  for (std::vector<int>& body : ashlar::free_bodies(free, all_tied)) {
+    const auto is_own = [this](int block) { return owns(block); };
+    const int rank = share_->owner(body.front());
+    if (std::any_of(body.begin(), body.end(), [&](int block) { return share_->owner(block) != rank; }))
+      shared.push_back(body);
+    if (std::any_of(body.begin(), body.end(), is_own)) free_bodies_.push_back(std::move(body));
+  }
+  share_->set_shared_bodies(std::move(shared));
 }
 
 bool BlockSystem::owns(int block) const {

@@ -45,7 +45,8 @@ class BlockSystem {
   /// no motion, contact, weight or energy
   /// @param share of the blocks among ranks, must outlive this; null: one rank has all of them. Blocks that are neither
   /// own nor ghosts of this rank are elsewhere: like absent ones here
-  /// @throws std::invalid_argument if a tied block is incremental, or blocks of two ranks are tied
+  /// With several ranks collective; blocks tied to own ones are ghosts then (share_blocks in step/ghosts.hpp).
+  /// @throws std::invalid_argument if a tied block is incremental
   BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
               const std::vector<TieRequest>& ties, std::vector<bool> absent = {},
               BlockShare* share = nullptr);
@@ -81,7 +82,8 @@ class BlockSystem {
   [[nodiscard]] bool are_tied(int a, int b) const;
   /// Pairs without contact search, the lower block first.
   [[nodiscard]] const std::set<PairKey>& left_out() const { return left_out_; }
-  /// Sets of blocks that rotate together and are supported by contacts only (free_bodies.hpp).
+  /// Sets of blocks that rotate together and are supported by contacts only (free_bodies.hpp); of several ranks those with
+  /// own blocks, see BlockShare::shared_bodies().
   [[nodiscard]] const std::vector<std::vector<int>>& free_bodies() const { return free_bodies_; }
   /// Size of the rounding errors of a block's internal force, N m^-3/2.
   [[nodiscard]] double roundoff_force(int block) const;
@@ -125,6 +127,10 @@ class BlockSystem {
 
  private:
   void note_gradients(std::size_t block);
+  /// @return pairs of tied blocks that this rank owns
+  std::vector<PairKey> make_ties(const std::vector<TieRequest>& ties);
+  /// @param tied pairs of this rank
+  void find_free_bodies(const std::vector<PairKey>& tied);
 
   std::vector<BlockModel> blocks_;
   std::vector<bool> absent_;

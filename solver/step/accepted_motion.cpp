@@ -4,8 +4,10 @@
 #include <limits>
 
 #include "geometry/index.hpp"
+#include "solver/ranks/block_share.hpp"
 #include "solver/step/angular_momentum.hpp"
 #include "solver/step/applied_force.hpp"
+#include "solver/step/island_parts.hpp"
 
 namespace ashlar {
 namespace {
@@ -100,11 +102,8 @@ BlockEnergies move_all(const BlockSystem& system, RunState& state, const StepPro
   return energies;
 }
 
-/// Returns to free blocks the spin that a step has removed, see angular_momentum.hpp.
-/// @param before states at the start of the step. @param dissipated by the integrator in each block, J
-void keep_angular_momentum(const BlockSystem& system, RunState& state, const StepProblem& problem,
-                           const std::vector<BlockState>& before, const std::vector<double>& dissipated) {
-  const TimeScheme& scheme = problem.scheme;
+/// Loads and forces of contacts, ties and bolts on the unknowns of all blocks.
+std::vector<Eigen::VectorXd> forces_on_blocks(const BlockSystem& system, const StepProblem& problem) {
   const std::vector<BlockModel>& blocks = system.blocks();
   std::vector<Eigen::VectorXd> forces(blocks.size());
   for (std::size_t k = 0; k < blocks.size(); ++k) forces[k] = problem.bodies[k].external_force;
@@ -122,37 +121,135 @@ void keep_angular_momentum(const BlockSystem& system, RunState& state, const Ste
           forces[at(held[k])] += problem.results[i].bolts[n].response.on_blocks[k];
     }
   }
-  std::vector<double>& debts = state.spin_debts;
-  for (const std::vector<int>& body : system.free_bodies()) {
-    if (!system.moving()[at(body.front())]) continue;
-    Vector3 stray = Vector3::Zero();
-    double limit = 0.0;
-    const Vector3 origin = centroid_of(blocks, body, before);
+  return forces;
+}
+
+/// Free bodies that have rotated in a step, and what it has done to them.
+class TurnedBodies {
+ public:
+  /// @param before states at the start of the step. @param dissipated by the integrator in each block, J
+  TurnedBodies(const BlockSystem& system, RunState& state, const StepProblem& problem,
+               const std::vector<BlockState>& before, const std::vector<double>& dissipated)
+      : system_(system),
+        state_(state),
+        scheme_(problem.scheme),
+        before_(before),
+        dissipated_(dissipated),
+        forces_(forces_on_blocks(system, problem)) {}
+
+  /// Returns the spin of a body all of whose blocks are here.
+  void return_spin(const std::vector<int>& body) {
+    const Loss loss = loss_of(body, centroid_of(system_.blocks(), body, before_));
+    const double gain =
+        add_spin(system_.blocks(), body, -loss.stray, std::max(loss.limit, 0.0), state_.states);
+    note_gain(body.front(), loss.limit, gain);
+  }
+
+  /// The same of bodies with blocks of several ranks. Collective. @param bodies the same on all ranks
+  void return_spins(const std::vector<std::vector<int>>& bodies) {
+    std::vector<std::vector<int>> own;
+    Eigen::MatrixXd masses = Eigen::MatrixXd::Zero(4, static_cast<Eigen::Index>(bodies.size()));
+    for (const std::vector<int>& body : bodies) {
+      std::vector<int>& here = own.emplace_back();
+      const auto column = static_cast<Eigen::Index>(own.size()) - 1;
+      for (const int k : body) {
+        if (!system_.owns(k) || !system_.moving()[at(k)]) continue;
+        here.push_back(k);
+        masses(0, column) += system_.blocks()[at(k)].mass();
+      }
+      if (!here.empty())
+        masses.col(column).tail<3>() = masses(0, column) * centroid_of(system_.blocks(), here, before_);
+    }
+    sum_of_run(system_, masses);
+    Eigen::MatrixXd losses = Eigen::MatrixXd::Zero(4, masses.cols());  // momentum, limit
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      const auto column = static_cast<Eigen::Index>(n);
+      if (own[n].empty()) continue;
+      const Loss loss = loss_of(own[n], masses.col(column).tail<3>() / masses(0, column));
+      losses.col(column) << loss.stray, loss.limit;
+    }
+    sum_of_run(system_, losses);
+    std::vector<std::vector<int>> turned;
+    std::vector<Eigen::Index> columns;
+    std::vector<Vector3> missing;
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      const auto column = static_cast<Eigen::Index>(n);
+      if (!(masses(0, column) > 0.0)) continue;  // asleep
+      turned.push_back(own[n]);
+      columns.push_back(column);
+      missing.emplace_back(-losses.col(column).head<3>());
+    }
+    const std::vector<Spin> spins =
+        spins_of(system_.blocks(), turned, missing, state_.states, summed_over_ranks(system_));
+    for (std::size_t n = 0; n < turned.size(); ++n) {
+      const double limit = losses(3, columns[n]);
+      const double share = spins[n].share_within(std::max(limit, 0.0));
+      spins[n].add(share, system_.blocks(), turned[n], state_.states);
+      const int first = bodies[static_cast<std::size_t>(columns[n])].front();
+      if (system_.owns(first)) note_gain(first, limit, spins[n].gain(share));
+    }
+  }
+
+ private:
+  struct Loss {
+    Vector3 stray = Vector3::Zero();  ///< kg m^2/s, gained without force
+    double limit = 0.0;               ///< of the energy of the spin, J
+  };
+
+  Loss loss_of(const std::vector<int>& body, const Vector3& origin) {
+    Loss loss;
     for (const int k : body) {
-      limit += dissipated[at(k)] + debts[at(k)];
-      debts[at(k)] = 0.0;
-      const BlockModel& block = blocks[at(k)];
-      const BlockState& start = before[at(k)];
-      const BlockState& end = state.states[at(k)];
+      loss.limit += dissipated_[at(k)] + state_.spin_debts[at(k)];
+      state_.spin_debts[at(k)] = 0.0;
+      const BlockModel& block = system_.blocks()[at(k)];
+      const BlockState& start = before_[at(k)];
+      const BlockState& end = state_.states[at(k)];
       const Eigen::MatrixX3d damped =
-          scheme.end_share * end.velocity + (1.0 - scheme.end_share) * start.velocity;
+          scheme_.end_share * end.velocity + (1.0 - scheme_.end_share) * start.velocity;
       const Eigen::MatrixX3d known =
-          block.space().expand(forces[at(k)]) - scheme.mass_damping * block.material().density * damped;
-      stray += stray_angular_momentum(block, start, end, known, scheme.step, origin);
+          block.space().expand(forces_[at(k)]) - scheme_.mass_damping * block.material().density * damped;
+      loss.stray += stray_angular_momentum(block, start, end, known, scheme_.step, origin);
     }
     // generalized-alpha returns energy that it took before.
-    if (!state.accelerations.empty()) limit = std::numeric_limits<double>::infinity();
-    const double gain = add_spin(blocks, body, -stray, std::max(limit, 0.0), state.states);
-    state.ledger.integrator_took(-gain);
-    debts[at(body.front())] = std::min(0.0, limit - gain);
+    if (!state_.accelerations.empty()) loss.limit = std::numeric_limits<double>::infinity();
+    return loss;
   }
+
+  void note_gain(int first, double limit, double gain) {
+    state_.ledger.integrator_took(-gain);
+    state_.spin_debts[at(first)] = std::min(0.0, limit - gain);
+  }
+
+  const BlockSystem& system_;
+  RunState& state_;
+  const TimeScheme& scheme_;
+  const std::vector<BlockState>& before_;
+  const std::vector<double>& dissipated_;
+  std::vector<Eigen::VectorXd> forces_;
+};
+
+bool has_shared_bodies(const BlockSystem& system) {
+  return system.share() != nullptr && !system.share()->shared_bodies().empty();
+}
+
+/// Returns to free blocks the spin that a step has removed, see angular_momentum.hpp. With several ranks collective.
+/// @param before states at the start of the step. @param dissipated by the integrator in each block, J
+void keep_angular_momentum(const BlockSystem& system, RunState& state, const StepProblem& problem,
+                           const std::vector<BlockState>& before, const std::vector<double>& dissipated) {
+  TurnedBodies bodies(system, state, problem, before, dissipated);
+  const auto is_own = [&system](int block) { return system.owns(block); };
+  for (const std::vector<int>& body : system.free_bodies())
+    if (system.moving()[at(body.front())] && std::all_of(body.begin(), body.end(), is_own))
+      bodies.return_spin(body);
+  if (has_shared_bodies(system)) bodies.return_spins(system.share()->shared_bodies());
 }
 
 }  // namespace
 
 PotentialSum move_blocks(const BlockSystem& system, RunState& state, const StepProblem& problem) {
   const TimeScheme& scheme = problem.scheme;
-  const bool gives_spin_back = !scheme.mean_contacts && !scheme.is_static() && !system.free_bodies().empty();
+  const bool any_free = !system.free_bodies().empty() || has_shared_bodies(system);
+  const bool gives_spin_back = !scheme.mean_contacts && !scheme.is_static() && any_free;
   std::vector<BlockState> before;
   if (gives_spin_back) before = state.states;
   const BlockEnergies energies = move_all(system, state, problem);

@@ -134,6 +134,7 @@ class AcceptedContacts {
         const Eigen::VectorXd& yb = problem_.bodies[at(pair.b())].change;
         const double work = pair.work(response, ya, yb);
         if (!system_.owns_pair(pair.a(), pair.b())) {
+          if (pair.tied()) continue;
           remember({pair, response, result.laws[n], ya, yb, stopped[index]}, work,
                    bulges.of(pair.a()) + bulges.of(pair.b()));
           continue;

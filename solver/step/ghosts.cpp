@@ -106,6 +106,18 @@ bool is_absent(const std::vector<bool>& absent, int block) {
   return !absent.empty() && absent[at(block)];
 }
 
+/// Adds the blocks that own ones are tied to.
+std::vector<int> with_tied(const SharedBlocks& shared, std::vector<int> ghosts) {
+  for (const auto& [a, b] : shared.tied) {
+    if (is_absent(shared.absent, a) || is_absent(shared.absent, b)) continue;
+    if (shared.share->owns(a)) ghosts.push_back(b);
+    if (shared.share->owns(b)) ghosts.push_back(a);
+  }
+  std::sort(ghosts.begin(), ghosts.end());
+  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  return ghosts;
+}
+
 /// Margin for an expected motion in a step, m.
 double margin_for(const BlockShare& share, double motion) {
   double size = 0.0;
@@ -204,7 +216,8 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
                      system.blocks()[at(k)].fixed()});
   }
   const double reach = max_of_ranks(share.ranks(), reach_of(system.settings(), state));
-  change_ghosts(shared, system, state, caches, ghosts_of(share, boxes, reach + 2.0 * shared.margin));
+  change_ghosts(shared, system, state, caches,
+                with_tied(shared, ghosts_of(share, boxes, reach + 2.0 * shared.margin)));
   update_ghosts(system, state);
   update_ghost_contacts(system, state);
   for (int k = 0; k < system.count(); ++k) shared.paths[at(k)] = finder.path(k);
@@ -212,7 +225,8 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
 
 BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader load,
                           const SimulationSettings& settings, std::vector<bool> absent,
-                          std::unique_ptr<RankSolver> solver, bool keeps_models) {
+                          std::unique_ptr<RankSolver> solver, bool keeps_models,
+                          const std::vector<TieRequest>& ties) {
   BlocksOfRank result;
   result.shared = std::make_unique<SharedBlocks>(
       SharedBlocks{std::make_unique<BlockShare>(ranks, std::move(owners), std::move(solver)), std::move(load),
@@ -220,6 +234,8 @@ BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader loa
   SharedBlocks& shared = *result.shared;
   BlockShare& share = *shared.share;
   shared.keeps_models = keeps_models;
+  for (const TieRequest& tie : ties)
+    if (share.owner(tie.a) != share.owner(tie.b)) shared.tied.push_back({tie.a, tie.b});
   result.blocks.assign(at(share.count()), placeholder());
   shared.paths.assign(at(share.count()), 0.0);
   const auto take = [&](const std::vector<int>& blocks) {
@@ -237,7 +253,8 @@ BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader loa
     if (!is_absent(shared.absent, k))
       boxes.push_back({k, box_along(share.axes(), result.blocks[at(k)].solid().mesh().points),
                        result.blocks[at(k)].fixed()});
-  share.set_ghosts(ghosts_of(share, boxes, settings.contact_distance + 2.0 * shared.margin));
+  share.set_ghosts(
+      with_tied(shared, ghosts_of(share, boxes, settings.contact_distance + 2.0 * shared.margin)));
   take(keeps_models ? std::vector<int>() : share.ghosts());
   return result;
 }

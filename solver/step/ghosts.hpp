@@ -25,9 +25,11 @@ using BlockLoader = std::function<BlockModel(int block)>;
 struct SharedBlocks {
   std::unique_ptr<BlockShare> share;
   BlockLoader load;
-  std::vector<bool> absent;        ///< by block: on all ranks
-  double margin = 0.0;             ///< m, by which each block may move before ghosts are found again
-  bool keeps_models = false;       ///< this rank keeps the models of all blocks, for results
+  std::vector<bool> absent;   ///< by block: on all ranks
+  double margin = 0.0;        ///< m, by which each block may move before ghosts are found again
+  bool keeps_models = false;  ///< this rank keeps the models of all blocks, for results
+  std::vector<PairKey> tied =
+      {};  ///< pairs of blocks of two ranks that are ghosts of each other wherever they are
   std::vector<double> paths = {};  ///< by block, m: ContactFinder::path() when ghosts were found
   RankTraffic for_results = {};    ///< messages of results and snapshots
   int searches = 0;                ///< for ghosts, after the first one
@@ -44,10 +46,11 @@ struct BlocksOfRank {
 /// @param owners rank of each block, the same on all ranks
 /// @param absent by block, or empty: blocks that are absent from the run
 /// @param solver see BlockShare. @param keeps_models true: this rank has the models of all blocks
+/// @param ties of the run: tied blocks of two ranks are always ghosts of each other
 [[nodiscard]] BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader load,
                                         const SimulationSettings& settings, std::vector<bool> absent = {},
                                         std::unique_ptr<RankSolver> solver = nullptr,
-                                        bool keeps_models = false);
+                                        bool keeps_models = false, const std::vector<TieRequest>& ties = {});
 
 /// Makes a block one of those that this rank has, or takes it from them: it forgets the block's contacts. Sums over the
 /// run stay. @param model of the block; of one that is elsewhere any

@@ -140,22 +140,37 @@ class RanksTest(unittest.TestCase):
             frames = sorted(path.name for path in straight.glob("frames/*"))
             self.assertEqual(sorted(path.name for path in out.glob("frames/*")), frames)
 
+    def assert_same_energies(self, one, other):
+        """Energies within a millionth of the largest at any time, on other steps if a run was stopped between them."""
+        expected, found = table(one / "history.csv")[-1], table(other / "history.csv")[-1]
+        self.assertAlmostEqual(expected["time"], found["time"], 9)
+        energies = [column for column in expected if column.startswith("energy.")]
+        self.assertTrue(energies, expected.keys())
+        largest = max(abs(expected[column]) for column in energies)
+        for column in energies:
+            self.assertLessEqual(abs(expected[column] - found[column]), 1e-6 * largest, column)
+
     def test_wall_moves_alike_on_many_ranks(self):
         self.expect_same_motion("wall", 0.1, [2, 4])
 
     def test_falling_stones_move_alike_on_many_ranks(self):
         self.expect_same_motion("falling_block", 0.2, [2])
 
-    def test_drifts_and_cracks_are_those_of_all_blocks(self):
-        (self.folder / "leaning.toml").write_text('''
+    def write_leaning_wall(self, contact=""):
+        scene = self.folder / "leaning.toml"
+        scene.write_text('''
 analysis = { end_time = 0.05, time_step = 1e-3, gravity = [3, 0, -9.81] }
-contact = { friction_angle = 20 }
+contact = { friction_angle = 20, CONTACT }
 material = [{ name = "brick", density = 2000, young_modulus = 5e7, poisson_ratio = 0.2 }]
 block = [{ name = "ground", fixed = true, box = { min = [-1, -1, -0.2], max = [5, 1, 0] } }]
 masonry = [{ name = "wall", kind = "wall", material = "brick", length = 2, height = 0.6, brick = [0.5, 0.25, 0.15] }]
 measure = [{ name = "storey", drift = { blocks = ["wall.*"], heights = [0.1, 0.5] } },
            { name = "bed", crack = { joints = ["wall.*"] } }]
-''', encoding="utf-8")
+'''.replace(", CONTACT", f", {contact}" if contact else ""), encoding="utf-8")
+        return scene
+
+    def test_drifts_and_cracks_are_those_of_all_blocks(self):
+        self.write_leaning_wall()
         self.expect_same_motion("leaning.toml", 0.05, [2, 4])
 
     def static_end(self, ranks, scene, out, *options):
@@ -242,6 +257,38 @@ block = [{ name = "ground", fixed = true, box = { min = [-1, -1, -1], max = [2, 
         last, expected = table(out / "history.csv")[-1], table(straight / "history.csv")[-1]
         self.assertEqual(last["time"], 1.0)
         self.expect_same_place(last, expected, "resumed")
+
+    def test_multipliers_hold_alike_on_many_ranks(self):
+        self.write_leaning_wall("augmented = true")
+        self.expect_same_motion("leaning.toml", 0.05, [2, 4])
+
+    def test_blocks_with_multipliers_are_resumed_on_other_ranks(self):
+        scene = self.write_leaning_wall("augmented = true")
+        run_to = lambda end: ["run", scene, "--set", f"analysis.end_time={end}", "--quiet", "--out"]
+        self.assertEqual(run(0, *run_to(0.05), self.folder / "straight")[0], 0)
+        out = self.folder / "resumed"
+        for count, end in ((2, 0.02), (3, 0.03), (0, 0.04), (2, 0.05)):
+            resume = ["--resume"] if end > 0.02 else ["--checkpoint", "0"]
+            status, _, errors = run(count, *run_to(end), out, *resume)
+            self.assertEqual(status, 0, errors)
+        self.assert_same_energies(self.folder / "straight", out)
+
+    def test_tied_blocks_rebound_alike_on_many_ranks(self):
+        (self.folder / "falling.toml").write_text('''
+analysis = { end_time = 0.25, time_step = 1e-3 }
+contact = { friction_angle = 30, restitution = 0.4 }
+material = [{ name = "stone", density = 2500, young_modulus = 5e9, poisson_ratio = 0.2 }]
+block = [
+  { name = "ground", fixed = true, box = { min = [-2, -2, -0.2], max = [5, 2, 0] } },
+  { name = "a", material = "stone", box = { min = [0, 0, 0.1], max = [1, 0.5, 0.6] } },
+  { name = "b", material = "stone", box = { min = [1, 0, 0.1], max = [2, 0.5, 0.6] } },
+  { name = "c", material = "stone", box = { min = [2, 0, 0.1], max = [3, 0.5, 0.6] } },
+  { name = "d", material = "stone", box = { min = [0.4, 0.1, 0.75], max = [0.9, 0.4, 1.1] } },
+  { name = "e", material = "stone", box = { min = [2.2, 0.1, 0.7], max = [2.7, 0.4, 1.1] } },
+]
+joint = [{ blocks = ["a", "b"], tied = true }, { blocks = ["b", "c"], tied = true }]
+''', encoding="utf-8")
+        self.expect_same_motion("falling.toml", 0.25, [2, 3])
 
     def test_more_ranks_than_blocks(self):
         self.expect_same_motion("falling_block", 0.02, [4])

@@ -21,6 +21,7 @@ struct Scene {
   JointLaw law;
   SimulationSettings settings;
   std::vector<TieRequest> ties = {};
+  bool stressed = false;  ///< starts with the initial stress of its blocks
 };
 
 inline JointLaw joint(double friction) {
@@ -116,6 +117,7 @@ inline End run_alone(const Scene& scene, int steps) {
   std::vector<BlockModel> blocks;
   for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
   Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings, scene.ties);
+  if (scene.stressed) simulation.start_stressed();
   EXPECT_TRUE(advance(simulation, steps));
   return end_of(simulation);
 }
@@ -126,9 +128,10 @@ inline End run_shared(const Scene& scene, const std::vector<int>& owners, int ra
   End end;
   run_on_threads(ranks, [&](Ranks& own) {
     const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    BlocksOfRank blocks = share_blocks(own, owners, load, scene.settings);
+    BlocksOfRank blocks = share_blocks(own, owners, load, scene.settings, {}, nullptr, false, scene.ties);
     if (prepare) prepare(*blocks.shared);
     Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings, scene.ties);
+    if (scene.stressed) simulation.start_stressed();
     EXPECT_TRUE(advance(simulation, steps));
     End here = end_of(simulation);
     if (own.own() == 0) end = std::move(here);

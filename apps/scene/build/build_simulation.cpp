@@ -304,7 +304,9 @@ void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics&
   std::optional<StressImbalance> worst;
   try {
     worst = simulation.start_stressed();
-  } catch (const FormulaError& error) {
+  } catch (const OtherRankFailed&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // a FormulaError, of this rank or of another one
     diagnostics.error(scene.places.key("initial_stress"),
                       fmt::format("initial stress has no value on a joint ({})", error.what()));
   }

@@ -6,7 +6,9 @@
 #include <set>
 #include <utility>
 
+#include "solver/ranks/block_share.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/step/agreement.hpp"
 
 namespace ashlar {
 namespace {
@@ -46,8 +48,11 @@ std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, 
 bool bonds_any(const JointTable& table, std::size_t joint, const BlockSystem& system) {
   bool bonds = false;
   const std::vector<BlockModel>& blocks = system.blocks();
+  // The first of several ranks has the models of all blocks.
+  const bool has_all = system.share() == nullptr || system.share()->ranks().own() == 0;
+  const auto is_known = [&](std::size_t block) { return has_all || system.here(static_cast<int>(block)); };
   for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
-    if (!table.law_between(a, b).tie) return true;
+    if (!table.law_between(a, b).tie || !is_known(a) || !is_known(b)) return true;
     const Box first = box_of(blocks[a].solid().mesh().points),
               second = box_of(blocks[b].solid().mesh().points);
     if (!first.meets(second)) return true;
@@ -97,10 +102,12 @@ void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& 
          table.joints_between(static_cast<std::size_t>(tie.a), static_cast<std::size_t>(tie.b)))
       ties[joint] = true;
   }
+  for (std::size_t k = 0; k < scene.joint.size(); ++k)
+    ties[k] = ties[k] || (scene.joint[k].tie && bonds_any(table, k, system));
+  ties = any_of_run(system, ties);
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];
     if (!(joint.tied.value_or(false) || joint.tie) || ties[k] || waits(table, k, system)) continue;
-    if (joint.tie && bonds_any(table, k, system)) continue;
     if (is_untied(table, k)) {
       diagnostics.warning(scene.places.key(fmt::format("joint.{}.tied", k)),
                           "tied has no effect: a later [[joint]] of the same blocks unties them");

@@ -24,11 +24,6 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   refuse(!scene.bolt.empty(), "bolt.0", "bolts");
   refuse(!scene.prop.empty(), "prop.0", "props");
   refuse(!scene.boundary.empty(), "boundary.0", "boundaries");
-  refuse(scene.initial_stress.given(), "initial_stress", "initial stress");
-  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
-    const std::string joint = fmt::format("joint.{}", k);
-    refuse(scene.joint[k].tied.value_or(false), joint + ".tied", "blocks tied to each other");
-  }
 }
 
 }  // namespace ashlar

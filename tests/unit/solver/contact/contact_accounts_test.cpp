@@ -66,5 +66,24 @@ TEST(IslandFunds, WhatAMotionSetsFreeStaysWithTheIsland) {
   EXPECT_EQ(taken_in(accounts), (Accounts{{{0, 1}, 2.0}, {{0, 2}, 2.0}, {{5, 6}, 6.0}}));
 }
 
+/// Another rank has a pair of the island with 1 J, and one in no island with 2 J.
+TEST(IslandFunds, RanksKeepTheAccountsOfTheirOwnPairs) {
+  PairHistories accounts = that_took({{{0, 1}, 3.0}, {{5, 6}, 6.0}, {{8, 9}, 100.0}});
+  const SharedAccounts shared{[](const PairKey& pair) {
+                                return pair != PairKey{8, 9};
+                              },
+                              [](const std::vector<double>& values) {
+                                const std::vector<double> there = {2.0, 1.0, 1.0, 1.0};
+                                std::vector<double> sum = values;
+                                for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += there.at(k);
+                                return sum;
+                              }};
+  IslandFunds funds(accounts, {{{0, 1}}}, &shared);
+  EXPECT_EQ(funds.available(0), 4.0 + 8.0);
+  funds.use(0, 6.0);  // 4 of the island, 2 of the others
+  funds.spend_from(accounts);
+  EXPECT_EQ(taken_in(accounts), (Accounts{{{0, 1}, 0.0}, {{5, 6}, 4.5}, {{8, 9}, 100.0}}));
+}
+
 }  // namespace
 }  // namespace ashlar::contact_accounts_test

@@ -1,4 +1,5 @@
 // Simulations whose blocks several ranks share.
+#include <algorithm>
 #include <array>
 
 #include "support/shared_runs.hpp"
@@ -237,6 +238,124 @@ TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
     for (std::size_t k = 0; k < alone.states.size(); ++k)
       EXPECT_LT((simulation.states()[k].position - alone.states[k].position).norm(), 1e-10);
   });
+}
+
+/// Boxes that fall on a base and on each other and rebound.
+TEST(SharedSimulation, BlocksOfSeveralRanksReboundAlike) {
+  for (const bool augmented : {false, true}) {
+    Scene scene = pile(2, 1);
+    scene.law.restitution = 0.5;
+    scene.settings.augmented = augmented;
+    const End alone = run_alone(scene, 90);
+    ASSERT_GT(alone.totals.ledger.damping, 1.0);  // of impacts
+    for (const int ranks : {2, 4}) {
+      const End shared = run_shared(scene, owners_of(scene, ranks), ranks, 90);
+      EXPECT_LT(distance(alone, shared), 1e-8) << ranks;
+      EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
+                  1e-7 * alone.totals.ledger.damping);
+      // Tolerances of the iteration leave as much on one rank.
+      EXPECT_LT(shared.largest_step_residual,
+                2.0 * alone.largest_step_residual + 1e-9 * shared.totals.ledger.kinetic);
+    }
+  }
+}
+
+/// The first of five cubes hits a row of four with small gaps between them: the last one leaves with its velocity.
+TEST(SharedSimulation, AnImpactPassesThroughTheBlocksOfAllRanks) {
+  Scene scene;
+  scene.law = joint(0.0);
+  scene.law.restitution = 1.0;
+  scene.settings.time_step = 1e-3;
+  scene.settings.contact_distance = 2e-3;
+  scene.settings.gravity = Vector3::Zero();
+  scene.blocks.push_back(fixed_box({-9, -9, -9}, {-8, -8, -8}));
+  for (int k = 0; k < 5; ++k) {
+    const Vector3 low(1.001 * k + (k > 0 ? 0.05 : 0.0), 0.0, 0.0);
+    scene.blocks.push_back(
+        block_of("cube", Polyhedron(make_box(low, low + Vector3::Ones())), {2000, 1e9, 0.2}, 1));
+  }
+  scene.motions.resize(scene.blocks.size());
+  scene.motions[1].velocity = {2.0, 0.0, 0.0};
+  const End alone = run_alone(scene, 60);
+  const End shared = run_shared(scene, {0, 0, 1, 0, 2, 1}, 3, 60);
+  EXPECT_LT(distance(alone, shared), 1e-9);
+  EXPECT_NEAR(shared.totals.momentum.x(), 2000.0 * 2.0, 1e-8);
+  EXPECT_NEAR(shared.totals.ledger.kinetic, 0.5 * 2000.0 * 4.0, 1e-8);
+  EXPECT_NEAR(shared.states[5].velocity(0, 0), 2.0, 1e-9);
+}
+
+/// A bar of four blocks that are tied to each other, one on each rank, flies and turns.
+TEST(SharedSimulation, TiedBlocksOfSeveralRanksTurnAsOne) {
+  Scene scene;
+  scene.law = joint(0.5);
+  scene.settings.time_step = 2e-3;
+  scene.settings.gravity = Vector3::Zero();
+  scene.blocks.push_back(fixed_box({-9, -9, -9}, {-8, -8, -8}));
+  scene.motions.emplace_back();
+  const Vector3 spin(0.0, 1.0, 4.0);
+  for (int k = 0; k < 4; ++k) {
+    scene.blocks.push_back(
+        block_of("part", Polyhedron(make_box({k - 2.0, 0, 0}, {k - 1.0, 0.4, 0.4})), {2000, 1e8, 0.2}, 1));
+    // About the centroid of the bar.
+    scene.motions.push_back({spin.cross(Vector3(k - 1.5, 0.0, 0.0)), spin});
+    if (k > 0) scene.ties.push_back({k, k + 1, 1e11});
+  }
+  const End start = run_alone(scene, 0);
+  const End alone = run_alone(scene, 150);
+  for (const std::vector<int>& owners : {std::vector<int>{0, 0, 0, 1, 1}, {0, 0, 1, 2, 3}, {0, 1, 0, 1, 0}}) {
+    const int ranks = *std::max_element(owners.begin(), owners.end()) + 1;
+    const End shared = run_shared(scene, owners, ranks, 150);
+    EXPECT_LT(distance(alone, shared), 1e-8);
+    EXPECT_LT((shared.totals.momentum - start.totals.momentum).norm(), 1e-8);
+    EXPECT_LT((shared.totals.angular_momentum - start.totals.angular_momentum).norm(),
+              1e-8 * start.totals.angular_momentum.norm());
+    EXPECT_LT((shared.totals.angular_momentum - alone.totals.angular_momentum).norm(),
+              1e-11 * start.totals.angular_momentum.norm());
+    EXPECT_LT(shared.largest_step_residual, 1e-9 * start.totals.ledger.kinetic);
+  }
+}
+
+/// Tied blocks fall on a wall: with springs and with multipliers.
+TEST(SharedSimulation, TiedBlocksOfSeveralRanksFallAlike) {
+  for (const bool augmented : {false, true}) {
+    Scene scene = wall(3, 6);
+    scene.settings.augmented = augmented;
+    const int first = static_cast<int>(scene.blocks.size());
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 low(0.5 + 0.4 * k, 0.02, 0.602 + 0.05);
+      scene.blocks.push_back(
+          block_of("beam", Polyhedron(make_box(low, low + Vector3(0.4, 0.16, 0.2))), {2000, 1e9, 0.2}, 1));
+    }
+    scene.motions.resize(scene.blocks.size());
+    scene.ties = {{first, first + 1, 1e11}, {first + 1, first + 2, 1e11}};
+    const End alone = run_alone(scene, 80);
+    const End shared = run_shared(scene, owners_of(scene, 3), 3, 80);
+    EXPECT_LT(distance(alone, shared), 1e-8);
+    EXPECT_NEAR(alone.totals.ledger.contact, shared.totals.ledger.contact,
+                1e-6 * alone.totals.ledger.contact + 1e-9);
+    EXPECT_LT(shared.largest_step_residual, 1e-8 * std::abs(alone.totals.ledger.gravity));
+  }
+}
+
+/// A wall under a stress in all directions that nothing outside balances: it moves apart.
+TEST(SharedSimulation, BlocksUnderStressStartAlike) {
+  for (const bool augmented : {false, true}) {
+    Scene scene = wall(3, 6);
+    scene.stressed = true;
+    scene.settings.augmented = augmented;
+    for (BlockDefinition& block : scene.blocks)
+      block.initial_stress = [](const Vector3& place) -> Eigen::Matrix3d {
+        return Vector3(-2e4, -1e3, -1e4 - 1e3 * place.z()).asDiagonal();
+      };
+    const End alone = run_alone(scene, 30);
+    ASSERT_GT(alone.totals.ledger.kinetic, augmented ? 1e-8 : 1e-3);  // multipliers hold no energy
+    for (const int ranks : {2, 3}) {
+      const End shared = run_shared(scene, owners_of(scene, ranks), ranks, 30);
+      EXPECT_LT(distance(alone, shared), 1e-8);
+      EXPECT_NEAR(alone.totals.ledger.balance(), shared.totals.ledger.balance(),
+                  1e-8 * std::abs(alone.totals.ledger.gravity));
+    }
+  }
 }
 
 }  // namespace
