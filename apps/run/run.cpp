@@ -394,10 +394,4 @@ bool Run::tell(void (RunObserver::*event)(const Run&)) {
   return !shared() || !saver_ || all_told([&] { ((*saver_).*event)(*this); });
 }
 
-void Run::add_row() {
-  rows_.push_back({static_cast<double>(simulation().steps())});
-  const std::vector<double> values = history_row(simulation(), measures_, place_.origin, stage());
-  rows_.back().insert(rows_.back().end(), values.begin(), values.end());
-}
-
 }  // namespace ashlar

@@ -218,6 +218,12 @@ GoalValues Run::goals_of_measures() const {
   return [this](const Simulation& now) { return goals_of(now, measures_); };
 }
 
+void Run::add_row() {
+  rows_.push_back({static_cast<double>(simulation().steps())});
+  const std::vector<double> values = history_row(simulation(), measures_, place_.origin, stage());
+  rows_.back().insert(rows_.back().end(), values.begin(), values.end());
+}
+
 FinishedStage Run::finished(RunStatus status) const {
   return {to_string(status), message_, simulation().steps(), simulation().time()};
 }

@@ -55,7 +55,7 @@ double energy_of_ties(const BlockSystem& system, RunState& state, StepContacts& 
   double sum = 0.0;
   if (system.ties().empty()) return sum;
   for (const ContactPair& pair : contacts.pairs(system, state, {}, PairUse::statics))
-    if (pair.tied()) sum += pair.start_energy();
+    if (pair.tied() && system.owns_pair(pair.a(), pair.b())) sum += pair.start_energy();
   return sum;
 }
 

@@ -298,27 +298,6 @@ std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
   return depths;
 }
 
-/// Warns of a stress that neither joints nor boundaries hold.
-void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
-  constexpr double reported_from = 0.01;
-  std::optional<StressImbalance> worst;
-  try {
-    worst = simulation.start_stressed();
-  } catch (const OtherRankFailed&) {
-    throw;
-  } catch (const std::runtime_error& error) {  // a FormulaError, of this rank or of another one
-    diagnostics.error(scene.places.key("initial_stress"),
-                      fmt::format("initial stress has no value on a joint ({})", error.what()));
-  }
-  if (!worst || worst->share < reported_from) return;
-  diagnostics.warning(
-      scene.places.key("initial_stress"),
-      fmt::format(
-          "initial stress is not in balance with weight, loads and boundaries: block \"{}\" lacks {:.3g} N "
-          "({:.1f} % of the forces on it) and moves until they balance; check tractions, supports and k0",
-          scene.block[static_cast<std::size_t>(worst->block)].name, worst->force, 100 * worst->share));
-}
-
 }  // namespace
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,

@@ -1,9 +1,14 @@
 #include "apps/scene/build/stress_field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
 
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
+#include "solver/ranks/ranks.hpp"
 
 namespace ashlar {
 
@@ -27,6 +32,26 @@ StressField initial_stress_of(const Scene& scene, std::size_t block, std::size_t
   return [weight, up, shape, surface = initial.surface](const Vector3& place) -> Eigen::Matrix3d {
     return -weight * std::max(0.0, surface - up.dot(place)) * shape;
   };
+}
+
+void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  constexpr double reported_from = 0.01;
+  std::optional<StressImbalance> worst;
+  try {
+    worst = simulation.start_stressed();
+  } catch (const OtherRankFailed&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // a FormulaError, of this rank or of another one
+    diagnostics.error(scene.places.key("initial_stress"),
+                      fmt::format("initial stress has no value on a joint ({})", error.what()));
+  }
+  if (!worst || worst->share < reported_from) return;
+  diagnostics.warning(
+      scene.places.key("initial_stress"),
+      fmt::format(
+          "initial stress is not in balance with weight, loads and boundaries: block \"{}\" lacks {:.3g} N "
+          "({:.1f} % of the forces on it) and moves until they balance; check tractions, supports and k0",
+          scene.block[static_cast<std::size_t>(worst->block)].name, worst->force, 100 * worst->share));
 }
 
 }  // namespace ashlar
