@@ -3,26 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
 
 namespace ashlar {
 namespace {
-
-/// Sets of blocks that grow together.
-class JoinedBlocks {
- public:
-  explicit JoinedBlocks(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  void join(int a, int b) { parent_[at(first(b))] = first(a); }
-  [[nodiscard]] int first(int block) const {
-    while (parent_[at(block)] != block) block = parent_[at(block)];
-    return block;
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 bool touches(const PairRecord& pair) {
   return std::any_of(pair.responses.begin(), pair.responses.end(),
@@ -64,9 +50,9 @@ double relative_difference(const std::vector<BlockDifference>& differences, cons
 std::vector<std::vector<int>> blocks_in_touch(const Simulation& simulation) {
   const BlockSystem& system = simulation.system();
   const std::vector<bool>& moving = system.moving();
-  JoinedBlocks joined(moving.size());
+  UnionFind joined(moving.size());
   const auto join = [&](int a, int b) {
-    if (moving[at(a)] && moving[at(b)]) joined.join(a, b);
+    if (moving[at(a)] && moving[at(b)]) joined.unite(a, b);
   };
   for (const PairRecord& pair : simulation.contacts())
     if (touches(pair)) join(pair.a, pair.b);
@@ -76,7 +62,7 @@ std::vector<std::vector<int>> blocks_in_touch(const Simulation& simulation) {
       join(bolt.chain.shape().pieces().front().block, span.block);
   std::map<int, std::vector<int>> by_first;
   for (int k = 0; k < static_cast<int>(moving.size()); ++k)
-    if (moving[at(k)]) by_first[joined.first(k)].push_back(k);
+    if (moving[at(k)]) by_first[joined.find(k)].push_back(k);
   std::vector<std::vector<int>> islands;
   for (auto& [first, blocks] : by_first) islands.push_back(std::move(blocks));
   std::sort(islands.begin(), islands.end());
