@@ -89,11 +89,7 @@ class OrderChoice {
  public:
   OrderChoice(const Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
               const AccuracyRounds& rounds)
-      : simulation_(simulation),
-        request_(request),
-        rounds_(rounds),
-        last_(rounds.orders.back()),
-        has_goals_(!goals.empty()) {
+      : request_(request), rounds_(rounds), last_(rounds.orders.back()), has_goals_(!goals.empty()) {
     int deformable = 0;
     for (std::size_t k = 0; k < request.orders.size(); ++k) {
       const BlockModel& block = simulation.blocks()[k];
@@ -137,7 +133,6 @@ class OrderChoice {
     return true;
   }
 
-  const Simulation& simulation_;
   const AccuracyRequest& request_;
   const AccuracyRounds& rounds_;
   const AccuracyRound& last_;
