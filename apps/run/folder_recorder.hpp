@@ -26,7 +26,7 @@ class FolderRecorder : public RunObserver {
   void run_ends(const Run& run) override;
   void save_after_failure(const Run& run) override;
 
-  /// What the last accepted step is needed for. @pre begun()
+  /// Results that need the last accepted step. @pre begun()
   [[nodiscard]] ResultFolder::Due due(const Simulation& simulation) const { return files_->due(simulation); }
   /// True once the run has begun: the files below exist then.
   [[nodiscard]] bool begun() const { return files_.has_value(); }

@@ -33,7 +33,7 @@ struct PairBonds {
 /// Of all pairs that have had any, on rank 0; on other ranks none.
 [[nodiscard]] std::vector<PairBonds> bonds_of_run(const Simulation& simulation);
 
-/// What a process has used so far.
+/// Resources that a process has used so far.
 struct ProcessUse {
   double processor = 0.0;         ///< s, of all threads
   std::uint64_t peak_memory = 0;  ///< bytes

@@ -1,7 +1,6 @@
 #include "solver/step/impact_of_blocks.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,9 +43,7 @@ ImpactOfBlocks::ImpactOfBlocks(const BlockSystem& system, RunState& state,
       motions_(system, state.states),
       bonded_(system.blocks().size() + 1),
       group_(system.blocks().size()),
-      meets_(system.blocks().size(), false) {
-  std::iota(group_.begin(), group_.end(), 0);
-}
+      meets_(system.blocks().size(), false) {}
 
 bool ImpactOfBlocks::may_meet() {
   const auto closes = [this](const ContactPair& pair) {
@@ -116,13 +113,8 @@ void ImpactOfBlocks::apply() {
   if (system_.share() != nullptr) update_ghosts(system_, state_);
 }
 
-std::size_t ImpactOfBlocks::root(std::size_t block) const {
-  while (group_[block] != block) block = group_[block];
-  return block;
-}
-
-std::size_t ImpactOfBlocks::group_of(const TouchingPoints& touching) const {
-  return root(at(touching.moves[0] != 0 ? touching.blocks[0] : touching.blocks[1]));
+std::size_t ImpactOfBlocks::group_of(const TouchingPoints& touching) {
+  return at(group_.find(touching.moves[0] != 0 ? touching.blocks[0] : touching.blocks[1]));
 }
 
 int ImpactOfBlocks::body_or_ground(int block) {
@@ -187,12 +179,13 @@ TouchingPoints ImpactOfBlocks::touching_pair(std::size_t n, bool meets) {
 }
 
 void ImpactOfBlocks::join(const TouchingPoints& touching) {
-  const std::size_t first = group_of(touching);
-  const bool both = touching.moves[0] != 0 && touching.moves[1] != 0;
-  const std::size_t second = both ? root(at(touching.blocks[1])) : first;
-  const std::size_t low = std::min(first, second), high = std::max(first, second);
-  group_[high] = low;
-  meets_[low] = meets_[low] || meets_[high] || touching.meets;
+  const auto [a, b] = touching.blocks;
+  bool meets = touching.meets;
+  for (std::size_t side = 0; side < 2; ++side)
+    if (touching.moves[side] != 0) meets = meets || meets_[at(group_.find(touching.blocks[side]))];
+  if (touching.moves[0] != 0 && touching.moves[1] != 0) group_.unite(a, b);
+  const std::size_t group = group_of(touching);
+  meets_[group] = meets_[group] || meets;
 }
 
 std::vector<Eigen::Matrix3Xd> ImpactOfBlocks::rows_of(const ContactPair& pair, int block, bool of_a) {

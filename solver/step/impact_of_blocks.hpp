@@ -53,9 +53,8 @@ class ImpactOfBlocks {
     bool bonded;
   };
 
-  [[nodiscard]] std::size_t root(std::size_t block) const;
   /// Blocks that do not move transmit no impulses.
-  [[nodiscard]] std::size_t group_of(const TouchingPoints& touching) const;
+  [[nodiscard]] std::size_t group_of(const TouchingPoints& touching);
   /// Blocks that cannot move rigidly are one with the ground.
   [[nodiscard]] int body_or_ground(int block);
   /// Joins the blocks that bonds hold together.
@@ -78,9 +77,9 @@ class ImpactOfBlocks {
   ImpactLimits limits_;
   const std::vector<ContactPair>& pairs_;
   RigidMotions motions_;
-  UnionFind bonded_;                ///< blocks that bonds hold together, and the ground behind them
-  std::vector<std::size_t> group_;  ///< by block: another one of its group, itself: the first
-  std::vector<bool> meets_;         ///< by first block of a group
+  UnionFind bonded_;         ///< blocks that bonds hold together, and the ground behind them
+  UnionFind group_;          ///< moving blocks that touch, directly or not
+  std::vector<bool> meets_;  ///< by first block of a group
   std::vector<std::vector<PointTarget>> targets_;  ///< by pair
   std::map<int, int> bodies_;                      ///< by block
   std::vector<double> inertia_;

@@ -23,7 +23,7 @@ struct MovedBlock {
   SurfaceDivision division;
 };
 
-/// What a rank sends to a new owner.
+/// Message of a rank to a new owner.
 struct MovedPart {
   std::vector<MovedBlock> blocks;
   PairHistories pairs;

@@ -14,7 +14,7 @@ namespace ashlar {
 [[nodiscard]] double weight_of_rank(const BlockSystem& system, const RunState& state);
 
 /// Shares blocks out again if this step is one in which to look, the imbalance is beyond the limit, and the new partition
-/// removes at least half of it; with tied blocks never. To be called between two steps. Collective.
+/// removes at least half of it; with tied blocks never. For the time between two steps. Collective.
 /// @return true if owners have changed
 bool balance_ranks(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches);
 

@@ -74,11 +74,10 @@ inline Scene pile(int layers, int order, double along = 0.45, double above = 0.3
   return scene;
 }
 
-/// Ranks of blocks by their place along x.
-inline std::vector<int> owners_of(const Scene& scene, int ranks) {
+/// Ranks of blocks by their place along an axis, 0 to 2: as many for each.
+inline std::vector<int> owners_along(int axis, const std::vector<BlockDefinition>& blocks, int ranks) {
   std::vector<double> places;
-  for (const BlockDefinition& block : scene.blocks)
-    places.push_back(box_of(block.solid->mesh().points).low.x());
+  for (const BlockDefinition& block : blocks) places.push_back(box_of(block.solid->mesh().points).low[axis]);
   std::vector<double> sorted = places;
   std::sort(sorted.begin(), sorted.end());
   std::vector<int> owners;
@@ -87,6 +86,10 @@ inline std::vector<int> owners_of(const Scene& scene, int ranks) {
     owners.push_back(static_cast<int>(rank * ranks / static_cast<std::ptrdiff_t>(sorted.size())));
   }
   return owners;
+}
+
+inline std::vector<int> owners_of(const Scene& scene, int ranks) {
+  return owners_along(0, scene.blocks, ranks);
 }
 
 /// The end of a run.

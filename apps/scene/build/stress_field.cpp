@@ -8,6 +8,7 @@
 
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
+#include "apps/scene/toml/formulas.hpp"
 #include "solver/ranks/ranks.hpp"
 
 namespace ashlar {
@@ -37,13 +38,20 @@ StressField initial_stress_of(const Scene& scene, std::size_t block, std::size_t
 void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
   constexpr double reported_from = 0.01;
   std::optional<StressImbalance> worst;
-  try {
-    worst = simulation.start_stressed();
-  } catch (const OtherRankFailed&) {
-    throw;
-  } catch (const std::runtime_error& error) {  // a FormulaError, of this rank or of another one
+  const auto refuse = [&](const std::exception& error) {
     diagnostics.error(scene.places.key("initial_stress"),
                       fmt::format("initial stress has no value on a joint ({})", error.what()));
+  };
+  try {
+    worst = simulation.start_stressed();
+  } catch (const FormulaError& error) {
+    refuse(error);
+  } catch (const OtherRankFailed&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    // The first rank is told the error of another one as text.
+    if (simulation.system().share() == nullptr) throw;
+    refuse(error);
   }
   if (!worst || worst->share < reported_from) return;
   diagnostics.warning(

@@ -10,6 +10,7 @@
 #include "solver/ranks/thread_ranks.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/gathered_run.hpp"
+#include "support/shared_runs.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar::shared_statics_test {
@@ -57,17 +58,7 @@ struct Placed {
   }
   /// By the place of blocks along an axis.
   [[nodiscard]] std::vector<int> owners(int ranks, int axis = 0) const {
-    std::vector<double> places;
-    for (const BlockDefinition& block : blocks)
-      places.push_back(box_of(block.solid->mesh().points).low[axis]);
-    std::vector<double> sorted = places;
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<int> owners;
-    for (const double place : places) {
-      const auto rank = std::lower_bound(sorted.begin(), sorted.end(), place) - sorted.begin();
-      owners.push_back(static_cast<int>(rank * ranks / static_cast<std::ptrdiff_t>(sorted.size())));
-    }
-    return owners;
+    return test_support::owners_along(axis, blocks, ranks);
   }
 };
 
@@ -333,7 +324,7 @@ TEST(SharedStatics, MotionStartsFromTheStaticState) {
     shared.gather_results();
     if (own.own() != 0) return;
     EXPECT_LT(distance(alone.states(), shared.states()), 1e-9);
-    // What stands stays at rest, what flies falls g t^2 / 2.
+    // Supported blocks stay at rest, the flying one falls g t^2 / 2.
     EXPECT_LT(shared.states()[2].velocity.norm(), 1e-7);
     EXPECT_NEAR(test_support::place_of(shared, 4, {3.5, 0.5, 3.5}).z(), 3.5 - 0.5 * gravity * 0.1 * 0.1,
                 1e-6);
