@@ -2,16 +2,21 @@
 
 #include <Eigen/Jacobi>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace ashlar {
 
 KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& times,
-                     const Eigen::VectorXd& right_side, double tolerance, int most, const InnerProduct& dot) {
-  const auto length_of = [&dot](const Eigen::VectorXd& x) { return dot ? std::sqrt(dot(x, x)) : x.norm(); };
+                     const Eigen::VectorXd& right_side, double tolerance, int most,
+                     const InnerProducts& products) {
+  const auto products_of = [&products](const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                                       const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return products ? products(columns, x) : Eigen::VectorXd(columns.transpose() * x);
+  };
   KrylovSolution solution{Eigen::VectorXd::Zero(right_side.size()), false, 0};
-  const double size = length_of(right_side);
+  const double size = std::sqrt(products_of(right_side, right_side)[0]);
   if (!(size > 0.0)) {
     solution.converged = size == 0.0;
     return solution;
@@ -25,13 +30,17 @@ KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
   int used = 0;
   while (used < most && !solution.converged) {
     Eigen::VectorXd next = times(space.col(used));
-    const double before = length_of(next);
-    for (int k = 0; k <= used; ++k) {
-      upper(k, used) = dot ? dot(space.col(k), next) : space.col(k).dot(next);
-      next -= upper(k, used) * space.col(k);
-    }
-    const double length = length_of(next);
+    const auto before = space.leftCols(used + 1);
+    const Eigen::VectorXd along = products_of(before, next);
+    next -= before * along;
+    space.col(used + 1) = next;
+    const Eigen::VectorXd rest = products_of(space.leftCols(used + 2), next);
+    next -= before * rest.head(used + 1);
+    // `rest` is of the size of rounding, apart from the last: the difference is accurate.
+    const double length = std::sqrt(std::max(0.0, rest[used + 1] - rest.head(used + 1).squaredNorm()));
+    upper.col(used).head(used + 1) = along + rest.head(used + 1);
     upper(used + 1, used) = length;
+    const double whole = std::hypot(along.norm(), length);
     for (int k = 0; k < used; ++k)
       upper.col(used).applyOnTheLeft(k, k + 1, rotations[static_cast<std::size_t>(k)].adjoint());
     Eigen::JacobiRotation<double> rotation;
@@ -42,7 +51,7 @@ KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
     ++used;
     solution.converged = std::abs(reduced[used]) <= tolerance * size;
     // The Krylov space is exhausted: it contains the solution.
-    if (!(length > 1e-14 * before)) break;
+    if (!(length > 1e-14 * whole)) break;
     space.col(used) = next / length;
   }
   solution.iterations = used;

@@ -7,7 +7,9 @@
 
 namespace ashlar {
 
-using InnerProduct = std::function<double(const Eigen::VectorXd&, const Eigen::VectorXd&)>;
+/// Inner products of the columns of a matrix (size, n) with a vector (size). @return (n)
+using InnerProducts =
+    std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::MatrixXd>&, const Eigen::VectorXd&)>;
 
 /// Outcome of a GMRES iteration.
 struct KrylovSolution {
@@ -18,9 +20,11 @@ struct KrylovSolution {
 
 /// Minimises |b - A x| over growing Krylov spaces from x = 0.
 /// @param times A x; @param tolerance of |b - A x| / |b|; @param most iterations, each one product
-/// @param dot inner product of vectors of which several ranks have a part each; empty: that of whole vectors
+/// @param products of vectors of which several ranks have a part each; empty: of whole vectors. One call to begin with
+/// and two in each iteration: vectors are made orthogonal by Gram and Schmidt's method twice, which is as accurate as one
+/// vector after the other, and takes all products of a pass at once
 [[nodiscard]] KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& times,
                                    const Eigen::VectorXd& right_side, double tolerance, int most,
-                                   const InnerProduct& dot = {});
+                                   const InnerProducts& products = {});
 
 }  // namespace ashlar

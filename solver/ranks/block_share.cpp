@@ -9,9 +9,18 @@
 #include "geometry/index.hpp"
 
 namespace ashlar {
-BlockShare::BlockShare(Ranks& ranks, std::vector<int> owners, std::unique_ptr<RankSolver> solver)
+namespace {
+
+std::unique_ptr<MeasuredSolver> measured_solver(const RankSolverMaker& make, Ranks& ranks) {
+  return std::make_unique<MeasuredSolver>(make ? make(ranks) : make_gathered_solver(ranks));
+}
+
+}  // namespace
+
+BlockShare::BlockShare(Ranks& ranks, std::vector<int> owners, const RankSolverMaker& solver)
     : ranks_(ranks),
-      solver_(std::make_unique<MeasuredSolver>(solver ? std::move(solver) : make_gathered_solver(ranks))),
+      solver_(measured_solver(solver, ranks)),
+      step_solver_(measured_solver(solver, ranks)),
       owners_(std::move(owners)),
       is_ghost_(owners_.size(), false),
       lent_(at(ranks.count())) {

@@ -20,12 +20,15 @@ namespace ashlar {
 class BlockShare {
  public:
   /// @param owners rank of each block, the same on all ranks
-  /// @param solver of systems that ranks share; null: make_gathered_solver()
+  /// @param solver of systems that ranks share; empty: make_gathered_solver()
   /// @throws std::invalid_argument if there is no such rank
-  BlockShare(Ranks& ranks, std::vector<int> owners, std::unique_ptr<RankSolver> solver = nullptr);
+  BlockShare(Ranks& ranks, std::vector<int> owners, const RankSolverMaker& solver = {});
 
   [[nodiscard]] Ranks& ranks() const { return ranks_; }
+  /// Of systems that nothing keeps.
   [[nodiscard]] MeasuredSolver& solver() const { return *solver_; }
+  /// Of the joined island of a step: its factor may serve later steps (SharedFactor).
+  [[nodiscard]] MeasuredSolver& step_solver() const { return *step_solver_; }
   [[nodiscard]] int count() const { return static_cast<int>(owners_.size()); }
   [[nodiscard]] int owner(int block) const { return owners_[static_cast<std::size_t>(block)]; }
   [[nodiscard]] bool owns(int block) const { return owner(block) == ranks_.own(); }
@@ -72,6 +75,7 @@ class BlockShare {
 
   Ranks& ranks_;
   std::unique_ptr<MeasuredSolver> solver_;
+  std::unique_ptr<MeasuredSolver> step_solver_;
   std::vector<int> owners_;
   std::vector<int> own_;
   std::vector<int> ghosts_;

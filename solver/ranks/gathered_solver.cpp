@@ -43,7 +43,7 @@ class GatheredSolver final : public RankSolver {
     return status;
   }
 
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side) override {
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined) override {
     if (!factorized_) throw std::logic_error("a system was not factorised");
     Eigen::VectorXd all(matrix_->matrix().size);
     Eigen::Index own_start = 0;
@@ -59,7 +59,7 @@ class GatheredSolver final : public RankSolver {
         start += size;
       }
     }
-    const Eigen::VectorXd found = factor_.solve(all);
+    const Eigen::VectorXd found = factor_.solve(all, refined);
     Eigen::VectorXd own(right_side.size());
     for (const int body : own_) {
       const int size = sizes_[at(place_.at(body))];
@@ -69,6 +69,7 @@ class GatheredSolver final : public RankSolver {
     return own;
   }
 
+  [[nodiscard]] double cost_in_solves() const override { return factor_.cost_in_solves(); }
   [[nodiscard]] const FactorCounts& counts() const override { return factor_.counts(); }
 
  private:

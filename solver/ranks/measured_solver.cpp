@@ -13,12 +13,12 @@ FactorStatus MeasuredSolver::factorize(const std::vector<BodyRows>& rows) {
   return solver_->factorize(rows);
 }
 
-Eigen::VectorXd MeasuredSolver::solve(const Eigen::VectorXd& right_side) {
+Eigen::VectorXd MeasuredSolver::solve(const Eigen::VectorXd& right_side, bool refined) {
   const Stopwatch wall(work_.seconds);
   const ProcessorWatch processor(work_.processor);
   ++work_.solves;
   work_.own_unknowns = std::max(work_.own_unknowns, static_cast<std::uint64_t>(right_side.size()));
-  return solver_->solve(right_side);
+  return solver_->solve(right_side, refined);
 }
 
 SharedWork MeasuredSolver::work() const {

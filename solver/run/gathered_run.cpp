@@ -175,6 +175,7 @@ std::vector<RankWork> work_of_ranks(const Simulation& simulation, const ProcessU
   work.ghosts = static_cast<int>(share->ghosts().size());
   work.traffic = share->ranks().traffic();
   work.shared = share->solver().work();
+  work.shared += share->step_solver().work();
   work.for_results = simulation.shared_blocks()->for_results;
   work.ghost_searches = simulation.shared_blocks()->searches;
   work.repartitions = simulation.shared_blocks()->balance.repartitions;

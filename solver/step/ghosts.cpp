@@ -225,12 +225,11 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
 
 BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader load,
                           const SimulationSettings& settings, std::vector<bool> absent,
-                          std::unique_ptr<RankSolver> solver, bool keeps_models,
+                          const RankSolverMaker& solver, bool keeps_models,
                           const std::vector<TieRequest>& ties) {
   BlocksOfRank result;
-  result.shared = std::make_unique<SharedBlocks>(
-      SharedBlocks{std::make_unique<BlockShare>(ranks, std::move(owners), std::move(solver)), std::move(load),
-                   std::move(absent)});
+  result.shared = std::make_unique<SharedBlocks>(SharedBlocks{
+      std::make_unique<BlockShare>(ranks, std::move(owners), solver), std::move(load), std::move(absent)});
   SharedBlocks& shared = *result.shared;
   BlockShare& share = *shared.share;
   shared.keeps_models = keeps_models;

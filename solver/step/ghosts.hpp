@@ -49,8 +49,8 @@ struct BlocksOfRank {
 /// @param ties of the run: tied blocks of two ranks are always ghosts of each other
 [[nodiscard]] BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader load,
                                         const SimulationSettings& settings, std::vector<bool> absent = {},
-                                        std::unique_ptr<RankSolver> solver = nullptr,
-                                        bool keeps_models = false, const std::vector<TieRequest>& ties = {});
+                                        const RankSolverMaker& solver = {}, bool keeps_models = false,
+                                        const std::vector<TieRequest>& ties = {});
 
 /// Makes a block one of those that this rank has, or takes it from them: it forgets the block's contacts. Sums over the
 /// run stay. @param model of the block; of one that is elsewhere any

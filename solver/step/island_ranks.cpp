@@ -22,6 +22,10 @@ double IslandRanks::sum(double value) const {
   return shared() ? sum_of_ranks(share_->ranks(), value) : value;
 }
 
+std::vector<double> IslandRanks::sum(const std::vector<double>& values) const {
+  return shared() ? sum_of_ranks(share_->ranks(), values) : values;
+}
+
 double IslandRanks::largest(double value) const {
   return shared() ? max_of_ranks(share_->ranks(), value) : value;
 }
@@ -35,13 +39,20 @@ bool IslandRanks::any(bool value) const {
 }
 
 double IslandRanks::dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
-  if (!shared()) return x.dot(y);
-  double sum = 0.0;
+  return shared() ? dot(Eigen::Ref<const Eigen::MatrixXd>(x), y)[0] : x.dot(y);
+}
+
+Eigen::VectorXd IslandRanks::dot(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                                 const Eigen::VectorXd& y) const {
+  if (!shared()) return columns.transpose() * y;
+  std::vector<double> sums(static_cast<std::size_t>(columns.cols()), 0.0);
+  Eigen::Map<Eigen::VectorXd> sum(sums.data(), columns.cols());
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const int size = starts_[k + 1] - starts_[k];
-    if (owns_body_[k]) sum += x.segment(starts_[k], size).dot(y.segment(starts_[k], size));
+    if (owns_body_[k]) sum += columns.middleRows(starts_[k], size).transpose() * y.segment(starts_[k], size);
   }
-  return sum_of_ranks(share_->ranks(), sum);
+  sums = sum_of_ranks(share_->ranks(), sums);
+  return Eigen::Map<Eigen::VectorXd>(sums.data(), columns.cols());
 }
 
 int IslandRanks::place_of(int block) const {

@@ -31,11 +31,15 @@ class IslandRanks {
 
   // The same on all ranks, from those of each.
   [[nodiscard]] double sum(double value) const;
+  [[nodiscard]] std::vector<double> sum(const std::vector<double>& values) const;
   [[nodiscard]] double largest(double value) const;
   [[nodiscard]] std::vector<double> largest(const std::vector<double>& values) const;
   [[nodiscard]] bool any(bool value) const;
   /// Inner product of vectors in the island's equations.
   [[nodiscard]] double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;
+  /// Of columns (equations, n) with a vector, by one message. @return (n)
+  [[nodiscard]] Eigen::VectorXd dot(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                                    const Eigen::VectorXd& y) const;
 
   /// Sets the parts of ghosts to those of their owners. @param x in the island's equations
   void update_ghosts(Eigen::VectorXd& x) const;

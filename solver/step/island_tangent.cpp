@@ -104,14 +104,17 @@ FactorStatus IslandTangent::update_factor() {
 bool IslandTangent::products_pay() const {
   double to_assemble = 0.0;  // multiplications
   double product = 0.0;
+  double unable = 0.0;  // bodies whose tangent is not known as a product
   for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    if (!problem_.ranks().owns_body(k)) continue;
     const BlockModel& model = *problem_.body(k).model;
-    if (!model.tangent_turns()) return false;
+    if (!model.tangent_turns()) unable += 1.0;
     const auto n = static_cast<double>(model.unknowns());
     to_assemble += 6.0 * n * n;  // two halves of R K R'
     product += n * n;
   }
   for (std::size_t k = 0; k < problem_.pairs(); ++k) {
+    if (!problem_.ranks().owns_pair(k)) continue;
     const auto unknowns = [&](int place) {
       return place < 0 ? 0.0 : static_cast<double>(problem_.body(at(place)).model->unknowns());
     };
@@ -121,7 +124,8 @@ bool IslandTangent::products_pay() const {
     to_assemble += points * 2.0 / 3.0 * (a * a + a * b + b * b);
     product += points * 2.0 * (a + b);
   }
-  return to_assemble > problem_.settings().iteration.old_factor_iterations * product;
+  const std::vector<double> all = problem_.ranks().sum({to_assemble, product, unable});
+  return all[2] == 0.0 && all[0] > problem_.settings().iteration.old_factor_iterations * all[1];
 }
 
 void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const {
@@ -184,7 +188,8 @@ std::vector<IslandTangent::PairProduct> IslandTangent::products_of(
   return products;
 }
 
-Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const {
+std::optional<Eigen::VectorXd> IslandTangent::solve_with_old(const Eigen::VectorXd& right_side,
+                                                             bool coupled) const {
   const IterationSettings& settings = problem_.settings().iteration;
   std::vector<PairProduct> products = products_of([&](std::size_t k) {
     const PairResponse& response = problem_.responses()[k];
@@ -201,19 +206,23 @@ Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side,
   };
   const KrylovSolution found =
       gmres(preconditioned, solver_.factor->solve(right_side, false), settings.krylov_tolerance,
-            settings.old_factor_iterations, inner_product());
-  return found.converged && problem_.dot(right_side, found.x) > 0.0 ? found.x : Eigen::VectorXd();
+            settings.old_factor_iterations, inner_products());
+  if (!found.converged) return std::nullopt;
+  const bool has_bodies = problem_.ranks().shared() || right_side.size() > 0;
+  if (has_bodies && !(problem_.dot(right_side, found.x) > 0.0)) return std::nullopt;
+  return found.x;
 }
 
-InnerProduct IslandTangent::inner_product() const {
+InnerProducts IslandTangent::inner_products() const {
   if (!problem_.ranks().shared()) return {};
-  return [this](const Eigen::VectorXd& x, const Eigen::VectorXd& y) { return problem_.dot(x, y); };
+  return [this](const Eigen::Ref<const Eigen::MatrixXd>& columns, const Eigen::VectorXd& x) {
+    return problem_.ranks().dot(columns, x);
+  };
 }
 
 Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool coupled) {
   if (factor_is_old_) {
-    Eigen::VectorXd found = solve_with_old(right_side, coupled);
-    if (found.size() > 0 || right_side.size() == 0) return found;
+    if (std::optional<Eigen::VectorXd> found = solve_with_old(right_side, coupled)) return *std::move(found);
     if (!assembled_) assemble(false);
     if (factorize_assembled(true) != FactorStatus::success)
       return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
@@ -230,7 +239,7 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   };
   const IterationSettings& settings = problem_.settings().iteration;
   return gmres(with_couplings, solver_.factor->solve(right_side), settings.krylov_tolerance,
-               settings.krylov_iterations, inner_product())
+               settings.krylov_iterations, inner_products())
       .x;
 }
 

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "solver/linear/gmres.hpp"
@@ -46,10 +47,11 @@ class IslandTangent {
   void assemble(bool positive);
   /// Factorises the assembled matrix. @param kept for later steps
   [[nodiscard]] FactorStatus factorize_assembled(bool kept);
-  /// True if the products of one solution with an old factor cost less than assembly of the matrix.
+  /// True if the products of one solution with an old factor cost less than assembly of the matrix, on all ranks
+  /// together.
   [[nodiscard]] bool products_pay() const;
   /// Of vectors that several ranks share; empty: one rank has all.
-  [[nodiscard]] InnerProduct inner_product() const;
+  [[nodiscard]] InnerProducts inner_products() const;
   /// w s (1 + k), weight of the stiffness of blocks.
   [[nodiscard]] double weight_of_blocks() const;
   /// w b, weight of the dashpots of quiet faces.
@@ -63,8 +65,9 @@ class IslandTangent {
   /// @param x (equations)
   void add_pairs(std::vector<PairProduct>& products, bool with_bolts, const Eigen::VectorXd& x,
                  Eigen::VectorXd& force) const;
-  /// Solves with an old factor. @return empty if it no longer preconditions the system
-  [[nodiscard]] Eigen::VectorXd solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const;
+  /// Solves with an old factor. @return none if it no longer preconditions the system
+  [[nodiscard]] std::optional<Eigen::VectorXd> solve_with_old(const Eigen::VectorXd& right_side,
+                                                              bool coupled) const;
 
   const IslandProblem& problem_;
   IslandSolvers::Entry& solver_;

@@ -27,14 +27,14 @@ Eigen::MatrixXd rigid_motions(const BodyStep& body) {
 /// Solves the rows of own bodies with those of the other ranks, and gets the solution of ghosts.
 class SharedIslandSolver final : public LinearSolver {
  public:
-  SharedIslandSolver(const BlockShare& share, const Island& island, const std::vector<BodyStep>& bodies,
+  SharedIslandSolver(RankSolver& solver, const Island& island, const std::vector<BodyStep>& bodies,
                      std::vector<int> starts, const IslandRanks& ranks)
-      : share_(share), island_(island), bodies_(bodies), starts_(std::move(starts)), ranks_(ranks) {}
+      : solver_(solver), island_(island), bodies_(bodies), starts_(std::move(starts)), ranks_(ranks) {}
 
   [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix) override {
-    return share_.solver().factorize(rows_of(matrix));
+    return solver_.factorize(rows_of(matrix));
   }
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool) override {
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined) override {
     Eigen::VectorXd own(own_size());
     Eigen::Index next = 0;
     const auto each_own = [&](const auto& visit) {
@@ -49,7 +49,7 @@ class SharedIslandSolver final : public LinearSolver {
     each_own([&](Eigen::Index start, Eigen::Index place, Eigen::Index size) {
       own.segment(place, size) = right_side.segment(start, size);
     });
-    own = share_.solver().solve(own);
+    own = solver_.solve(own, refined);
     Eigen::VectorXd found = Eigen::VectorXd::Zero(right_side.size());
     each_own([&](Eigen::Index start, Eigen::Index place, Eigen::Index size) {
       found.segment(start, size) = own.segment(place, size);
@@ -57,10 +57,10 @@ class SharedIslandSolver final : public LinearSolver {
     ranks_.update_ghosts(found);
     return found;
   }
-  [[nodiscard]] const FactorCounts& counts() const override { return share_.solver().counts(); }
+  [[nodiscard]] const FactorCounts& counts() const override { return solver_.counts(); }
   void drop_counts() override {}
-  /// No factor is kept for later steps.
-  [[nodiscard]] double cost_in_solves() const override { return 0.0; }
+  [[nodiscard]] double cost_in_solves() const override { return solver_.cost_in_solves(); }
+  /// None: the rows went to the solver.
   [[nodiscard]] const SymmetricMatrix& matrix() const override { return none_; }
 
  private:
@@ -71,8 +71,9 @@ class SharedIslandSolver final : public LinearSolver {
     return size;
   }
 
-  [[nodiscard]] std::vector<BodyRows> rows_of(const SymmetricMatrix& matrix) const {
-    std::vector<std::map<int, Eigen::MatrixXd>> blocks(island_.bodies.size());  // by column
+  /// Blocks of the rows of own bodies, by body and column. @param matrix of dense blocks
+  [[nodiscard]] std::vector<std::map<int, Eigen::MatrixXd>> own_blocks(const SymmetricMatrix& matrix) const {
+    std::vector<std::map<int, Eigen::MatrixXd>> blocks(island_.bodies.size());
     const auto block = [&](int row, int column) -> Eigen::MatrixXd& {
       const auto [place, is_new] = blocks[at(row)].try_emplace(column);
       if (is_new)
@@ -86,14 +87,23 @@ class SharedIslandSolver final : public LinearSolver {
     };
     for (int column = 0; column < matrix.size; ++column) {
       const int j = body_of(column);
-      for (int k = matrix.column_start[at(column)]; k < matrix.column_start[at(column) + 1]; ++k) {
-        const int row = matrix.rows[at(k)];
-        const int i = body_of(row);
-        const double value = matrix.values[at(k)];
-        if (ranks_.owns_body(at(i))) block(i, j)(row - starts_[at(i)], column - starts_[at(j)]) = value;
-        if (ranks_.owns_body(at(j))) block(j, i)(column - starts_[at(j)], row - starts_[at(i)]) = value;
+      const int in_body = column - starts_[at(j)];
+      for (int k = matrix.column_start[at(column)], size = 0; k < matrix.column_start[at(column) + 1];
+           k += size) {
+        // The rows of one body follow each other.
+        const int i = body_of(matrix.rows[at(k)]);
+        const int first = matrix.rows[at(k)] - starts_[at(i)];
+        size = starts_[at(i) + 1] - starts_[at(i)] - first;
+        const Eigen::Map<const Eigen::VectorXd> values(matrix.values.data() + k, size);
+        if (ranks_.owns_body(at(i))) block(i, j).col(in_body).segment(first, size) = values;
+        if (ranks_.owns_body(at(j))) block(j, i).row(in_body).segment(first, size) = values.transpose();
       }
     }
+    return blocks;
+  }
+
+  [[nodiscard]] std::vector<BodyRows> rows_of(const SymmetricMatrix& matrix) const {
+    std::vector<std::map<int, Eigen::MatrixXd>> blocks = own_blocks(matrix);
     std::vector<BodyRows> rows;
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       // Moving supports may leave a body no unknowns.
@@ -109,7 +119,7 @@ class SharedIslandSolver final : public LinearSolver {
     return rows;
   }
 
-  const BlockShare& share_;
+  RankSolver& solver_;
   const Island& island_;
   const std::vector<BodyStep>& bodies_;
   std::vector<int> starts_;
@@ -175,14 +185,19 @@ std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
 
 SharedIslandSystem::SharedIslandSystem(const BlockSystem& system, const Island& island,
                                        const std::vector<BodyStep>& bodies,
-                                       const std::vector<ContactPair>& pairs) {
+                                       const std::vector<ContactPair>& pairs, SharedFactor* kept)
+    : kept_(kept) {
   const BlockShare& share = *system.share();
   std::map<int, int> place;
   std::vector<int> sizes, starts = {0};
+  SharedFactor own;
   for (const int body : island.bodies) {
     place.emplace(body, static_cast<int>(place.size()));
     sizes.push_back(bodies[at(body)].model->freedom());
     starts.push_back(starts.back() + sizes.back());
+    if (!share.owns(body)) continue;
+    own.bodies.push_back(body);
+    own.sizes.push_back(sizes.back());
   }
   std::vector<std::array<int, 2>> links;
   std::vector<bool> owns_pair;
@@ -194,20 +209,29 @@ SharedIslandSystem::SharedIslandSystem(const BlockSystem& system, const Island& 
     if (a != place.end() && b != place.end()) links.push_back({a->second, b->second});
   }
   ranks_ = std::make_unique<const IslandRanks>(share, island.bodies, starts, std::move(owns_pair));
+  RankSolver& solver = kept_ == nullptr ? share.solver() : share.step_solver();
   solver_ = std::make_unique<IslandSolvers::Entry>(
       IslandSolvers::Entry{sizes, links, BlockMatrix(sizes, links),
-                           std::make_unique<SharedIslandSolver>(share, island, bodies, starts, *ranks_)});
+                           std::make_unique<SharedIslandSolver>(solver, island, bodies, starts, *ranks_)});
+  if (kept_ == nullptr) return;
+  const bool others = own.bodies != kept_->bodies || own.sizes != kept_->sizes;
+  if (!any_rank(share.ranks(), others)) solver_->inertia = kept_->inertia;
+  *kept_ = std::move(own);
 }
 
-SharedIslandSystem::~SharedIslandSystem() = default;
+SharedIslandSystem::~SharedIslandSystem() {
+  if (kept_ != nullptr) kept_->inertia = solver_->inertia;
+}
 
 IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
                                  std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-                                 const TimeScheme& scheme, const SimulationSettings& settings) {
-  SharedIslandSystem linear(system, island, bodies, pairs);
+                                 const TimeScheme& scheme, const SimulationSettings& settings,
+                                 SharedFactor* kept) {
+  SharedIslandSystem linear(system, island, bodies, pairs, kept);
   IslandResult result;
   IslandProblem problem(island, bodies, pairs, scheme, settings, linear.solver(), linear.ranks());
   iterate_open_close(problem, result);
+  if (system.share()->ranks().own() != 0) result.iterations = result.fallbacks = 0;
   return result;
 }
 

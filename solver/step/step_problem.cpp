@@ -93,7 +93,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   if (problem.shared >= 0)
     problem.results[at(problem.shared)] =
         solve_shared_island(system, problem.islands[at(problem.shared)], problem.bodies, problem.pairs,
-                            scheme, system.settings());
+                            scheme, system.settings(), &factors.shared);
   SimulationCounts& counts = state.log.counts;
   IslandStatus status = IslandStatus::converged;
   for (IslandResult& result : problem.results) {

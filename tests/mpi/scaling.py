@@ -88,7 +88,7 @@ def rows_of(name, ranks, summary):
         results = rank["for_results"]
         rows.append(RankRow(
             scene=name, ranks=ranks, all_blocks=summary["blocks"], blocks=rank["blocks"], ghosts=rank["ghosts"],
-            points=rank["contact_points"] / steps, iterations=counts["open_close_iterations"] / len(each) / steps,
+            points=rank["contact_points"] / steps, iterations=counts["open_close_iterations"] / steps,
             unknowns=rank["unknowns"], solutions=rank["shared_systems"]["solutions"] / steps,
             calls=(rank["collective_calls"] - results["collective_calls"]) / steps,
             messages=(rank["messages_sent"] - results["messages_sent"]) / steps,

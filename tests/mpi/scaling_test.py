@@ -85,7 +85,7 @@ class SummaryTest(unittest.TestCase):
                 "processor_seconds": {"total": 5.0, "own_part": 2.0, "shared_systems": 2.0, "in_messages": 1.0},
                 "for_results": {"collective_calls": 10, "messages_sent": 4, "bytes_sent": 500}}
         found = scaling.rows_of("wall:2", 2, {
-            "steps": 4, "blocks": 6, "counts": {"open_close_iterations": 40}, "ranks": [rank, rank],
+            "steps": 4, "blocks": 6, "counts": {"open_close_iterations": 20}, "ranks": [rank, rank],
             "wall_seconds": {"total": 9, "setup": 1, "solve": 4, "contact_search": 2, "output": 2}})
         self.assertEqual(found.wall, 1.5)
         first = found.rows[0]

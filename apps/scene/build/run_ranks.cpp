@@ -52,9 +52,8 @@ Simulation simulation_of(const RunRanks* shared, SimulationParts parts, const Bl
   const BlockLoader made_or_loaded = [made, load](int block) {
     return made->empty() ? load(block) : (*made)[at(block)];
   };
-  BlocksOfRank blocks =
-      share_blocks(ranks.ranks, std::move(owners), made_or_loaded, parts.settings, std::move(parts.absent),
-                   ranks.solver ? ranks.solver(ranks.ranks) : nullptr, ranks.first(), parts.ties);
+  BlocksOfRank blocks = share_blocks(ranks.ranks, std::move(owners), made_or_loaded, parts.settings,
+                                     std::move(parts.absent), ranks.solver, ranks.first(), parts.ties);
   *made = {};
   blocks.shared->balance.partition = ranks.partition;
   return {std::move(blocks), parts.motions, std::move(parts.law), parts.settings, parts.ties};

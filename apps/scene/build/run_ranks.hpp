@@ -1,8 +1,6 @@
 // Processes that share a simulation of a scene (solver/notes/ranks.md).
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <vector>
 
 #include "solver/ranks/partition.hpp"
@@ -14,7 +12,7 @@ struct RunRanks {
   Ranks& ranks;
   Partition partition = partition_by_place;
   /// Solver of systems that ranks share; empty: make_gathered_solver()
-  std::function<std::unique_ptr<RankSolver>(Ranks& ranks)> solver = {};
+  RankSolverMaker solver = {};
 
   [[nodiscard]] bool several() const { return !ranks.alone(); }
   /// The rank that writes results.

@@ -13,6 +13,8 @@ namespace {
 // Numbers of MUMPS's parameters and answers (its users' guide).
 constexpr PetscInt mumps_spare_memory = 14;     // ICNTL: percent of its estimate
 constexpr PetscInt mumps_negative_pivots = 12;  // INFOG
+constexpr PetscInt mumps_entries = 29;          // INFOG: of the factor; negative: millions of them
+constexpr PetscInt mumps_operations = 1;        // RINFOG: of the elimination, estimated
 
 constexpr PetscInt most_petsc_iterations = 3000;
 
@@ -112,8 +114,19 @@ FactorStatus PetscMethod::set_up(const std::vector<BodyRows>& rows) {
     Mat factor = nullptr;
     check_petsc(PCFactorGetMatrix(preconditioner_, &factor));
     check_petsc(MatMumpsGetInfog(factor, mumps_negative_pivots, &negative));
+    count_cost(factor);
   }
   return negative == 0 ? FactorStatus::success : FactorStatus::not_positive_definite;
+}
+
+/// A solution takes a multiplication and an addition for each entry, forwards and backwards.
+void PetscMethod::count_cost(Mat factor) {
+  PetscInt entries = 0;
+  PetscReal operations = 0.0;
+  check_petsc(MatMumpsGetInfog(factor, mumps_entries, &entries));
+  check_petsc(MatMumpsGetRinfog(factor, mumps_operations, &operations));
+  const double all = entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries);
+  cost_in_solves_ = all > 0.0 ? operations / (4.0 * all) : 0.0;
 }
 
 /// One step of iterative refinement with the factor.
@@ -124,7 +137,7 @@ void PetscMethod::refine() {
   check_petsc(VecAXPY(solution_, 1.0, correction_));
 }
 
-bool PetscMethod::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
+bool PetscMethod::solve(const Eigen::VectorXd& right_side, bool refined, Eigen::VectorXd& solution) {
   PetscScalar* values = nullptr;
   check_petsc(VecGetArrayWrite(right_side_, &values));
   Eigen::Map<Eigen::VectorXd>(values, right_side.size()) = right_side;
@@ -140,7 +153,7 @@ bool PetscMethod::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solu
     PetscInt taken = 0;
     check_petsc(KSPGetIterationNumber(solver_, &taken));
     iterations_ += static_cast<std::uint64_t>(taken);
-  } else if (good) {
+  } else if (good && refined) {
     refine();
   }
   const PetscScalar* found = nullptr;

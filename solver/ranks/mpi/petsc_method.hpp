@@ -33,8 +33,10 @@ class PetscMethod {
   [[nodiscard]] bool iterates() const { return iterates_; }
   /// Prepares solutions. @param rows of the pattern. @throws std::bad_alloc without memory for a factor
   [[nodiscard]] FactorStatus set_up(const std::vector<BodyRows>& rows);
-  /// @return false if it did not converge, or the matrix turns out to be indefinite
-  [[nodiscard]] bool solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution);
+  /// @param refined to rounding error. @return false if it did not converge, or the matrix turns out to be indefinite
+  [[nodiscard]] bool solve(const Eigen::VectorXd& right_side, bool refined, Eigen::VectorXd& solution);
+  /// Cost of set_up() relative to a solution, by MUMPS's counts of the pattern; 0 for other methods, and before the first.
+  [[nodiscard]] double cost_in_solves() const { return cost_in_solves_; }
   /// Iterations of all solutions.
   [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
 
@@ -44,6 +46,7 @@ class PetscMethod {
   void choose_multigrid() const;
   [[nodiscard]] PCFailedReason factorize();
   void refine();
+  void count_cost(Mat factor);
 
   PetscMatrix matrix_;
   std::string prefix_;
@@ -57,6 +60,7 @@ class PetscMethod {
   Vec residual_ = nullptr;
   Vec correction_ = nullptr;
   std::uint64_t iterations_ = 0;
+  double cost_in_solves_ = 0.0;
 };
 
 }  // namespace ashlar

@@ -15,7 +15,8 @@ class PetscSolver final : public RankSolver {
   PetscSolver(Ranks& ranks, const PetscSolverLimits& limits) : ranks_(ranks), limits_(limits) {}
 
   [[nodiscard]] FactorStatus factorize(const std::vector<BodyRows>& rows) override;
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side) override;
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined) override;
+  [[nodiscard]] double cost_in_solves() const override { return method_ ? method_->cost_in_solves() : 0.0; }
   [[nodiscard]] const FactorCounts& counts() const override { return counts_; }
 
  private:
@@ -95,17 +96,17 @@ Eigen::VectorXd PetscSolver::solve_instead(const Eigen::VectorXd& right_side) {
     if (indefinite_) instead_.reset();
   }
   Eigen::VectorXd solution;
-  if (indefinite_ || !instead_->solve(right_side, solution)) return solve_blocks(right_side);
+  if (indefinite_ || !instead_->solve(right_side, true, solution)) return solve_blocks(right_side);
   return solution;
 }
 
-Eigen::VectorXd PetscSolver::solve(const Eigen::VectorXd& right_side) {
+Eigen::VectorXd PetscSolver::solve(const Eigen::VectorXd& right_side, bool refined) {
   if (!ready_) throw std::logic_error("solve before a successful factorize");
   ++counts_.solves;
   if (instead_ || indefinite_) return solve_instead(right_side);
   Eigen::VectorXd solution;
   const std::uint64_t before = method_->iterations();
-  const bool good = method_->solve(right_side, solution);
+  const bool good = method_->solve(right_side, refined, solution);
   counts_.gradient_iterations += method_->iterations() - before;
   if (good || !method_->iterates()) return solution;
   return solve_instead(right_side);

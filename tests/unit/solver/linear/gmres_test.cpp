@@ -30,6 +30,27 @@ TEST(Gmres, NeedsAsManyIterationsAsTheMatrixIsAwayFromTheIdentity) {
   EXPECT_LT((solution.x - expected).norm(), 1e-11 * expected.norm());
 }
 
+TEST(Gmres, TakesAllProductsOfAPassAtOnce) {
+  // Hilbert's matrix of size 8: its Krylov vectors are nearly dependent. Two parts of vectors, summed.
+  const int n = 8;
+  Eigen::MatrixXd a(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) a(i, j) = 1.0 / (1 + i + j);
+  a += Eigen::MatrixXd::Identity(n, n) * 1e-6;
+  int calls = 0;
+  const auto products = [&](const Eigen::Ref<const Eigen::MatrixXd>& columns, const Eigen::VectorXd& x) {
+    ++calls;
+    return Eigen::VectorXd(columns.topRows(3).transpose() * x.head(3) +
+                           columns.bottomRows(n - 3).transpose() * x.tail(n - 3));
+  };
+  const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return a * x; };
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, -2.0);
+  const KrylovSolution solution = gmres(times, b, 1e-10, n, products);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_EQ(calls, 1 + 2 * solution.iterations);
+  EXPECT_LT((times(solution.x) - b).norm(), 1e-9 * b.norm());
+}
+
 TEST(Gmres, TellsThatASingularSystemHasNoSolution) {
   const auto times = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return Eigen::Vector2d(x[0], 0.0); };
   EXPECT_FALSE(gmres(times, Eigen::Vector2d(1, 1), 1e-10, 5).converged);

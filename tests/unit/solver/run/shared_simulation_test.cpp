@@ -72,6 +72,19 @@ TEST(SharedSimulation, ABaseWithoutUnknownsMovesAWall) {
   }
 }
 
+TEST(SharedSimulation, AFactorOfTheSharedIslandServesLaterSteps) {
+  // Order 3: a factor of 5 bricks costs more than twenty solutions.
+  const Scene scene = wall(2, 3, 3);
+  const End alone = run_alone(scene, 12);
+  ASSERT_LT(alone.totals.counts.factors.factorizations, 6u);
+  const End shared = run_shared(scene, owners_of(scene, 2), 2, 12);
+  EXPECT_LT(distance(alone, shared), 1e-9);
+  EXPECT_GE(shared.work[0].shared.solves, 12u);
+  EXPECT_LT(shared.work[0].shared.factorizations, 6u);
+  const auto iterations = static_cast<double>(alone.totals.counts.open_close_iterations);
+  EXPECT_NEAR(static_cast<double>(shared.totals.counts.open_close_iterations), iterations, 0.1 * iterations);
+}
+
 TEST(SharedSimulation, APileFallsAlikeOnAnyNumberOfRanks) {
   const Scene scene = pile(6, 1);
   const End alone = run_alone(scene, 110);
@@ -253,9 +266,9 @@ TEST(SharedSimulation, BlocksOfSeveralRanksReboundAlike) {
       EXPECT_LT(distance(alone, shared), 1e-8) << ranks;
       EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
                   1e-7 * alone.totals.ledger.damping);
-      // Tolerances of the iteration leave as much on one rank.
-      EXPECT_LT(shared.largest_step_residual,
-                2.0 * alone.largest_step_residual + 1e-9 * shared.totals.ledger.kinetic);
+      // In the first step boxes touch within rounding: each such point may leave this share of a force, and which part
+      // of it is left depends on the last bits.
+      EXPECT_LT(shared.largest_step_residual, IterationSettings::doubt_share * shared.totals.ledger.kinetic);
     }
   }
 }
