@@ -147,6 +147,24 @@ TEST(PetscSolver, RanksMayHaveNoBody) {
   }
 }
 
+TEST(PetscSolver, TellsTheCostOfAFactorToAllRanks) {
+  // A dense matrix of n unknowns: n^3 / 3 multiplications and additions for a factor of n^2 / 2 entries, of which a solution
+  // takes two of each.
+  const int n = 10 * 12;
+  const DenseSystem system = random_system(std::vector<int>(10, 12), 6);
+  const std::vector<int> owners = in_turn(system.bodies(), test_ranks().count());
+  const auto solver = make_petsc_solver(test_ranks());
+  EXPECT_EQ(solver->cost_in_solves(), 0.0);
+  EXPECT_EQ(solver->factorize(rows_of(system, owners, test_ranks().own())), FactorStatus::success);
+  const double cost = solver->cost_in_solves();
+  EXPECT_GT(cost, 0.0);
+  EXPECT_LT(cost, n / 6.0 * 1.1);
+  EXPECT_EQ(max_of_ranks(test_ranks(), cost), -max_of_ranks(test_ranks(), -cost));
+  const auto iteration = make_petsc_solver(test_ranks(), {.most_factored = 0});
+  EXPECT_EQ(iteration->factorize(rows_of(system, owners, test_ranks().own())), FactorStatus::success);
+  EXPECT_EQ(iteration->cost_in_solves(), 0.0);
+}
+
 TEST(PetscSolver, AnalysesOnceForAPattern) {
   const auto solver = make_petsc_solver(test_ranks());
   DenseSystem system = random_system(std::vector<int>(9, 6), 4);

@@ -44,6 +44,8 @@ class PetscMethod {
   [[nodiscard]] std::string option(const char* name) const;
   void choose(std::int64_t most_factored);
   void choose_multigrid() const;
+  /// Sets an option that is not given. @param name with "-", without the prefix
+  void set_default(const char* name, const char* value) const;
   [[nodiscard]] PCFailedReason factorize();
   void refine();
   void count_cost(Mat factor);
@@ -61,6 +63,7 @@ class PetscMethod {
   Vec correction_ = nullptr;
   std::uint64_t iterations_ = 0;
   double cost_in_solves_ = 0.0;
+  PetscReal refined_tolerance_ = 0.0;  ///< of an iteration, relative
 };
 
 }  // namespace ashlar
