@@ -53,7 +53,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
 
 double energy_of_ties(const BlockSystem& system, RunState& state, StepContacts& contacts) {
   double sum = 0.0;
-  if (system.ties().empty()) return sum;
+  // A rank may have no ties, but take part in the exchange of pairs.
+  if (system.left_out().empty()) return sum;
   for (const ContactPair& pair : contacts.pairs(system, state, {}, PairUse::statics))
     if (pair.tied() && system.owns_pair(pair.a(), pair.b())) sum += pair.start_energy();
   return sum;
