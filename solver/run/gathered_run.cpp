@@ -174,7 +174,8 @@ std::vector<RankWork> work_of_ranks(const Simulation& simulation, const ProcessU
   work.own = static_cast<int>(share->own().size());
   work.ghosts = static_cast<int>(share->ghosts().size());
   work.traffic = share->ranks().traffic();
-  work.shared = share->solver().work();
+  work.shared = simulation.shared_blocks()->earlier;
+  work.shared += share->solver().work();
   work.shared += share->step_solver().work();
   work.for_results = simulation.shared_blocks()->for_results;
   work.ghost_searches = simulation.shared_blocks()->searches;

@@ -227,8 +227,25 @@ StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on
 
 void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
   refuse_late("start_stage");
-  refuse_ranks("staged analyses");
-  ashlar::start_stage(system_, state_, caches_, end, was_absent);
+  refuse_ranks("stages after a snapshot alone");
+  ashlar::start_stage(context(), end, was_absent);
+}
+
+void Simulation::start_stage(const Simulation& last) {
+  if (shared_ == nullptr) return start_stage(last.snapshot(), last.system_.absent());
+  refuse_late("start_stage");
+  told_.reset();
+  const bool first = system_.share()->ranks().own() == 0;
+  SimulationSnapshot end = last.snapshot();
+  if (!first) end = {};
+  end = std::move(values_of_ranks(system_.share()->ranks(), end).front());
+  ashlar::start_stage(context(), end, last.system_.absent());
+  // The snapshot has sums of all ranks.
+  state_.report = last.state_.report;
+  state_.extremes = last.state_.extremes;
+  state_.log = last.state_.log;
+  state_.log.counts = last.own_counts();
+  continue_work(*last.shared_, *shared_);
 }
 
 bool Simulation::reached(double end_time) const {

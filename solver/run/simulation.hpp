@@ -97,8 +97,11 @@ class Simulation {
 
   /// Continues from the end of a simulation of the same blocks (stage_start.hpp).
   /// @param was_absent in it, by block
-  /// @throws std::invalid_argument if it has other blocks or other orders
+  /// @throws std::invalid_argument if it has other blocks or other orders, or on several ranks
   void start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent);
+  /// The same with the simulation itself. On several ranks collective: of a simulation of the same ranks, whose blocks may
+  /// have had other owners, after its gather_results(). Counts of the work of ranks continue.
+  void start_stage(const Simulation& last);
   /// @}
 
   /// Puts the results of all ranks together on the first one: its report(), ledger() and other sums are those of the run

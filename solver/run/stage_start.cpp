@@ -7,28 +7,39 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/archived_geometry.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/step/accepted_bolts.hpp"
+#include "solver/step/ghosts.hpp"
 #include "solver/step/quiet_release.hpp"
+#include "solver/step/shared_snapshot.hpp"
 
 namespace ashlar {
 namespace {
 
-/// True if the snapshot fits blocks with these numbers of functions.
+/// True if the snapshot fits the blocks of this rank: it has states with these numbers of functions.
 bool fits(const BlockSystem& system, const RunState& state, const SimulationSnapshot& end,
           const std::vector<bool>& was_absent) {
   const std::vector<BlockState>& states = end.run.states;
   if (end.run.bolts.size() != state.bolts.size()) return false;
   bool same = states.size() == system.blocks().size() && was_absent.size() == states.size();
-  for (int k = 0; same && k < system.count(); ++k)
+  for (int k = 0; same && k < system.count(); ++k) {
+    if (system.share() != nullptr && !system.here(k)) continue;
     same = states[at(k)].position.rows() == state.states[at(k)].position.rows() &&
            end.carried.contains(k) == (system.blocks()[at(k)].incremental() != nullptr);
+  }
   return same;
 }
 
-/// Ties of added blocks to others are relative to the placed blocks.
-void refuse_strained_ties(const BlockSystem& system, const RunState& state,
-                          const std::vector<bool>& was_absent) {
+/// A tie of an added block to one that has moved.
+struct StrainedTie {
+  PairKey blocks = {-1, -1};
+  std::string fault;  ///< empty: there is none
+};
+
+/// The first one of this rank. Ties of added blocks to others are relative to the placed blocks.
+StrainedTie strained_tie(const BlockSystem& system, const RunState& state,
+                         const std::vector<bool>& was_absent) {
   // Of the search distance: a tie of this gap has hardly any stress.
   constexpr double allowed = 1e-3;
   const std::vector<BlockModel>& blocks = system.blocks();
@@ -42,63 +53,138 @@ void refuse_strained_ties(const BlockSystem& system, const RunState& state,
     if (!(mean > allowed * system.settings().contact_distance)) continue;
     const auto [added, other] =
         was_absent[at(tied.a)] ? std::array{tied.a, tied.b} : std::array{tied.b, tied.a};
-    throw std::invalid_argument(
-        "block " + blocks[at(added)].name() + " is added with a tie to block " + blocks[at(other)].name() +
-        ", which has moved (by " + std::to_string(mean) +
-        " m at their common face); a tie begins without a gap: add both in one stage, or "
-        "join them without `tied`");
+    return {{tied.a, tied.b},
+            "block " + blocks[at(added)].name() + " is added with a tie to block " +
+                blocks[at(other)].name() + ", which has moved (by " + std::to_string(mean) +
+                " m at their common face); a tie begins without a gap: add both in one stage, or "
+                "join them without `tied`"};
   }
+  return {};
+}
+
+/// With several ranks collective.
+void refuse_strained_ties(const BlockSystem& system, const RunState& state,
+                          const std::vector<bool>& was_absent) {
+  StrainedTie first = strained_tie(system, state, was_absent);
+  if (system.share() != nullptr)
+    for (StrainedTie& tie : values_of_ranks(system.share()->ranks(), first))
+      if (first.fault.empty() || (!tie.fault.empty() && tie.blocks < first.blocks)) first = std::move(tie);
+  if (!first.fault.empty()) throw std::invalid_argument(first.fault);
+}
+
+/// The start of a stage, seen from one rank.
+class StageStart {
+ public:
+  StageStart(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent)
+      : run_(run), system_(run.system), state_(run.state), end_(end), was_absent_(was_absent) {}
+
+  /// Not collective.
+  void take_blocks();
+  /// With several ranks collective.
+  void take_contacts();
+
+ private:
+  [[nodiscard]] bool stays(int block) const { return system_.present(block) && !was_absent_[at(block)]; }
+  [[nodiscard]] bool stay(int a, int b) const { return stays(a) && stays(b); }
+  void take_history(const PairKey& blocks, PairHistory history);
+  [[nodiscard]] double take_records();
+
+  const RunContext& run_;
+  BlockSystem& system_;
+  RunState& state_;
+  const SimulationSnapshot& end_;
+  const std::vector<bool>& was_absent_;
+};
+
+void StageStart::take_blocks() {
+  if (!fits(system_, state_, end_, was_absent_))
+    throw std::invalid_argument("the stage before has other blocks");
+  for (int k = 0; k < system_.count(); ++k) {
+    if (!stays(k) || !system_.here(k)) continue;
+    state_.states[at(k)] = end_.run.states[at(k)];
+    if (system_.blocks()[at(k)].fixed() || system_.blocks()[at(k)].incremental() == nullptr) continue;
+    system_.carry_on(k, system_.blocks()[at(k)].with_shape(end_.carried.at(k)));
+    run_.caches.contacts.finder().start_step(k);
+  }
+  std::map<int, Eigen::MatrixX3d> reactions = end_.reactions;
+  std::erase_if(reactions, [this](const auto& one) { return !stays(one.first); });
+  set_reactions(system_, state_, run_.caches, reactions);
+  for (const auto& [place, factor] : end_.load_factors)
+    if (at(place[1]) < system_.blocks()[at(place[0])].loads().size())
+      system_.set_load_factor(place[0], place[1], factor);
+}
+
+void StageStart::take_contacts() {
+  // Pairs with an added block keep their initial history.
+  std::erase_if(state_.pairs, [this](const auto& pair) { return stay(pair.first[0], pair.first[1]); });
+  const auto take = [this](const PairKey& blocks, PairHistory history) {
+    if (stay(blocks[0], blocks[1])) take_history(blocks, std::move(history));
+  };
+  if (run_.shared == nullptr) {
+    for (const auto& [blocks, history] : end_.run.pairs) take(blocks, history);
+  } else {
+    // Dilation lets joints reach farther, and so determines ghosts.
+    take_histories(system_, end_.run.pairs, take);
+    find_ghosts(*run_.shared, system_, state_, run_.caches);
+    take_histories(system_, end_.run.pairs, take);
+    update_ghost_contacts(system_, state_);
+  }
+  refuse_strained_ties(system_, state_, was_absent_);
+  double in_springs = take_records();
+  // Bolts of this stage are installed where the blocks are now.
+  state_.bolts = end_.run.bolts;
+  commit_bolts(state_);
+  in_springs += install_bolts(system_, state_) + energy_of_ties(system_, state_, run_.caches.contacts);
+  state_.ledger.clear(in_springs);
+}
+
+void StageStart::take_history(const PairKey& blocks, PairHistory history) {
+  // It counts paths of blocks, which start at zero again.
+  history.clearance.reset();
+  history.cache.reset();
+  history.work = 0.0;
+  state_.pairs[blocks] = std::move(history);
+}
+
+/// @return energy of their springs, J, of own pairs
+double StageStart::take_records() {
+  state_.records.clear();
+  double in_springs = 0.0;
+  for (PairRecord record : end_.run.records) {
+    if (!stay(record.a, record.b) || !system_.here(record.a) || !system_.here(record.b)) continue;
+    record.work = 0.0;
+    if (system_.owns_pair(record.a, record.b))
+      for (const PointResponse& response : record.responses) in_springs += response.energy();
+    state_.records.push_back(std::move(record));
+  }
+  return in_springs;
 }
 
 }  // namespace
 
-void start_stage(BlockSystem& system, RunState& state, StepCaches& caches, const SimulationSnapshot& end,
-                 const std::vector<bool>& was_absent) {
-  if (!fits(system, state, end, was_absent)) throw std::invalid_argument("the stage before has other blocks");
-  const auto stays = [&](int block) { return system.present(block) && !was_absent[at(block)]; };
-  for (int k = 0; k < system.count(); ++k) {
-    if (!stays(k)) continue;
-    state.states[at(k)] = end.run.states[at(k)];
-    if (system.blocks()[at(k)].fixed() || system.blocks()[at(k)].incremental() == nullptr) continue;
-    system.carry_on(k, system.blocks()[at(k)].with_shape(end.carried.at(k)));
-    caches.contacts.finder().start_step(k);
-  }
-  std::map<int, Eigen::MatrixX3d> reactions = end.reactions;
-  std::erase_if(reactions, [&](const auto& one) { return !stays(one.first); });
-  set_reactions(system, state, caches, reactions);
-  for (const auto& [place, factor] : end.load_factors)
-    if (at(place[1]) < system.blocks()[at(place[0])].loads().size())
-      system.set_load_factor(place[0], place[1], factor);
-  // Pairs with an added block keep their initial history.
-  std::erase_if(state.pairs, [&](const auto& pair) { return stays(pair.first[0]) && stays(pair.first[1]); });
-  for (const auto& [blocks, pair] : end.run.pairs) {
-    if (!stays(blocks[0]) || !stays(blocks[1])) continue;
-    PairHistory& kept = state.pairs.emplace(blocks, pair).first->second;
-    // It counts paths of blocks, which start at zero again.
-    kept.clearance.reset();
-    kept.cache.reset();
-    kept.work = 0.0;
-  }
-  refuse_strained_ties(system, state, was_absent);
-  state.records.clear();
-  double in_springs = 0.0;
-  for (PairRecord record : end.run.records) {
-    if (!stays(record.a) || !stays(record.b)) continue;
-    record.work = 0.0;
-    for (const PointResponse& response : record.responses) in_springs += response.energy();
-    state.records.push_back(std::move(record));
-  }
-  // Bolts of this stage are installed where the blocks are now.
-  state.bolts = end.run.bolts;
-  commit_bolts(state);
-  in_springs += install_bolts(system, state) + energy_of_ties(system, state, caches.contacts);
+void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
+  RunState& state = run.state;
+  StageStart stage(run, end, was_absent);
+  if (run.shared == nullptr)
+    stage.take_blocks();
+  else
+    do_on_all(run.shared->share->ranks(), [&stage] { stage.take_blocks(); });
+  stage.take_contacts();
   state.steps = end.run.steps;
   state.remembers_statics = true;
   state.report = end.run.report;
   state.extremes = end.run.extremes;
   state.log = end.run.log;
-  state.ledger.clear(in_springs);
-  state.ledger.start(system, state.states);
+  state.ledger.start(run.system, state.states);
+}
+
+void continue_work(const SharedBlocks& before, SharedBlocks& now) {
+  now.searches += before.searches;
+  now.for_results += before.for_results;
+  now.balance.repartitions += before.balance.repartitions;
+  now.earlier += before.earlier;
+  now.earlier += before.share->solver().work();
+  now.earlier += before.share->step_solver().work();
 }
 
 }  // namespace ashlar

@@ -5,19 +5,26 @@
 // multipliers. So unchanged parts are in balance in the first step of the stage as they were at the end of the last
 // one. Loads keep the factors set by Simulation::set_load_factor. The count of steps continues; the clock, the ledger
 // and the work of contacts are reset.
+//
+// On several ranks a stage has other owners than the last one: each rank takes what its blocks and ghosts need from the
+// snapshot of the whole run, as after a checkpoint (step/shared_snapshot.hpp).
 #pragma once
 
 #include <vector>
 
+#include "solver/step/run_context.hpp"
 #include "solver/step/snapshot.hpp"
 
 namespace ashlar {
 
-/// Starts a run whose contacts have not been detected yet. Blocks that were absent start where it has placed them.
-/// @param end of the stage before. @param was_absent in it, by block
+/// Starts a run whose contacts have not been detected yet. Blocks that were absent start where it has placed them. With
+/// several ranks collective.
+/// @param end of the stage before; of the whole run, and the same on all ranks. @param was_absent in it, by block
 /// @throws std::invalid_argument if it has other blocks or other orders, or if a block that was absent is tied to one that
-/// has moved
-void start_stage(BlockSystem& system, RunState& state, StepCaches& caches, const SimulationSnapshot& end,
-                 const std::vector<bool>& was_absent);
+/// has moved; on all ranks the same
+void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent);
+
+/// Counts the work of a rank in the stage before together with that of the present one.
+void continue_work(const SharedBlocks& before, SharedBlocks& now);
 
 }  // namespace ashlar

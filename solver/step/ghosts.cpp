@@ -148,12 +148,7 @@ ContactMemory closed_normals(const ContactMemory& memory) {
 void forget_block(int block, RunState& state, StepCaches& caches) {
   const auto has = [block](const auto& blocks) { return blocks[0] == block || blocks[1] == block; };
   for (auto& [blocks, pair] : state.pairs) {
-    if (!has(blocks)) continue;
-    pair.memory = ContactMemory();
-    pair.cache.reset();
-    pair.clearance.reset();
-    pair.entrance.reset();
-    pair.depth = 0.0;
+    if (has(blocks)) forget_contacts(pair);
   }
   std::erase_if(state.records,
                 [block](const PairRecord& record) { return record.a == block || record.b == block; });
@@ -163,6 +158,14 @@ void forget_block(int block, RunState& state, StepCaches& caches) {
 }
 
 }  // namespace
+
+void forget_contacts(PairHistory& pair) {
+  pair.memory = ContactMemory();
+  pair.cache.reset();
+  pair.clearance.reset();
+  pair.entrance.reset();
+  pair.depth = 0.0;
+}
 
 void set_block_here(BlockSystem& system, RunState& state, StepCaches& caches, int block, BlockModel model,
                     bool here) {
@@ -178,6 +181,16 @@ void set_block_here(BlockSystem& system, RunState& state, StepCaches& caches, in
 
 namespace {
 
+/// Removes sums of pairs with blocks that go away, unless this rank makes them: once a block is elsewhere this rank does
+/// not know that it makes none of its contacts.
+void leave_sums_to_owners(const BlockSystem& system, RunState& state, const std::vector<int>& gone) {
+  const auto goes = [&gone](int block) { return std::binary_search(gone.begin(), gone.end(), block); };
+  for (auto& [blocks, pair] : state.pairs) {
+    if ((!goes(blocks[0]) && !goes(blocks[1])) || system.owns_pair(blocks[0], blocks[1])) continue;
+    pair.work = pair.taken = pair.bonded = pair.broken = 0.0;
+  }
+}
+
 /// Replaces the ghosts of this rank. Collective. @param after increasing
 void change_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                    const std::vector<int>& after) {
@@ -192,6 +205,7 @@ void change_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, S
   do_on_all(share.ranks(), [&] {
     for (const int block : come) models.push_back(shared.keeps_models ? known(block) : shared.load(block));
   });
+  leave_sums_to_owners(system, state, gone);
   for (const int block : gone)
     set_block_here(system, state, caches, block, shared.keeps_models ? known(block) : placeholder(), false);
   for (std::size_t k = 0; k < come.size(); ++k)

@@ -34,6 +34,7 @@ struct SharedBlocks {
   RankTraffic for_results = {};    ///< messages of results and snapshots
   int searches = 0;                ///< for ghosts, after the first one
   Rebalancing balance = {};
+  SharedWork earlier = {};  ///< systems of earlier stages (run/stage_start.hpp)
 };
 
 /// The blocks of one rank at the start of a run.
@@ -51,6 +52,9 @@ struct BlocksOfRank {
                                         const SimulationSettings& settings, std::vector<bool> absent = {},
                                         const RankSolverMaker& solver = {}, bool keeps_models = false,
                                         const std::vector<TieRequest>& ties = {});
+
+/// Removes what a rank knows of the contacts of a pair. Sums over the run and the initial overlap stay.
+void forget_contacts(PairHistory& pair);
 
 /// Makes a block one of those that this rank has, or takes it from them: it forgets the block's contacts. Sums over the
 /// run stay. @param model of the block; of one that is elsewhere any

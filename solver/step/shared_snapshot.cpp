@@ -38,6 +38,17 @@ void take_block(int block, const SimulationSnapshot& from, SimulationSnapshot& t
   take_value(block, statics.onset.starts, taken.onset.starts);
 }
 
+/// Fixed blocks of the run, by block. Collective.
+std::vector<bool> fixed_blocks(const BlockSystem& system) {
+  std::vector<int> own;
+  for (const int k : system.share()->own())
+    if (system.blocks()[at(k)].fixed()) own.push_back(k);
+  std::vector<bool> fixed(at(system.count()), false);
+  for (const std::vector<int>& of_rank : values_of_ranks(system.share()->ranks(), own))
+    for (const int k : of_rank) fixed[at(k)] = true;
+  return fixed;
+}
+
 /// Removes pairs that other ranks tell.
 void keep_own_pairs(const BlockSystem& system, RunState& run) {
   std::erase_if(run.pairs,
@@ -126,6 +137,22 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
   return part;
 }
 
+void take_histories(const BlockSystem& system, const PairHistories& whole,
+                    const std::function<void(const PairKey& blocks, PairHistory history)>& keep) {
+  const std::vector<bool> fixed = fixed_blocks(system);
+  for (const auto& [blocks, history] : whole) {
+    const auto [a, b] = blocks;
+    if (!system.owns(a) && !system.owns(b)) continue;
+    if (system.here(a) && system.here(b)) {
+      keep(blocks, history);
+    } else if (system.owns(fixed[at(a)] ? b : a)) {
+      PairHistory sums = history;
+      forget_contacts(sums);
+      keep(blocks, std::move(sums));
+    }
+  }
+}
+
 void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                   const SimulationSnapshot& whole) {
   if (whole.run.states.size() != at(system.count()) || !whole.carried.empty() || !whole.reactions.empty() ||
@@ -137,16 +164,13 @@ void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, St
   find_ghosts(shared, system, state, caches);
   ContactFinder& finder = caches.contacts.finder();
   finder.restore(finder_state_here(system, finder, whole, first));
-  do_on_all(shared.share->ranks(), [&] {
-    const std::vector<BlockSurface>& surfaces = finder.surfaces();
-    for (const auto& [blocks, history] : whole.run.pairs) {
-      const auto [a, b] = blocks;
-      if (!system.here(a) || !system.here(b) || !(system.owns(a) || system.owns(b))) continue;
-      PairHistory& pair = state.pairs[blocks] = history;
-      if (pair.cache != nullptr)
-        pair.cache = with_rows(*pair.cache, system.blocks()[at(a)], system.blocks()[at(b)], surfaces[at(a)],
-                               surfaces[at(b)]);
-    }
+  const std::vector<BlockSurface>& surfaces = finder.surfaces();
+  take_histories(system, whole.run.pairs, [&](const PairKey& blocks, PairHistory history) {
+    const auto [a, b] = blocks;
+    PairHistory& pair = state.pairs[blocks] = std::move(history);
+    if (pair.cache != nullptr)
+      pair.cache = with_rows(*pair.cache, system.blocks()[at(a)], system.blocks()[at(b)], surfaces[at(a)],
+                             surfaces[at(b)]);
   });
   update_ghost_contacts(system, state);
   for (const PairRecord& record : whole.run.records)

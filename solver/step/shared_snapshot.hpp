@@ -2,6 +2,8 @@
 // process alone, goes on.
 #pragma once
 
+#include <functional>
+
 #include "solver/run/run_totals.hpp"
 #include "solver/step/ghosts.hpp"
 #include "solver/step/snapshot.hpp"
@@ -13,6 +15,13 @@ namespace ashlar {
 /// @return on the first rank that of the run, on others `part`
 [[nodiscard]] SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
                                                 const RunTotals* totals);
+
+/// What this rank needs of the histories of all pairs: whole ones of pairs of an own block and one that is here; of other
+/// pairs that it makes the sums only, as if the other block had gone away. Collective.
+/// @param whole of the run, the same on all ranks. @param keep called for each pair, with the history without what it has
+/// found (forget_contacts) unless both blocks are here
+void take_histories(const BlockSystem& system, const PairHistories& whole,
+                    const std::function<void(const PairKey& blocks, PairHistory history)>& keep);
 
 /// Restores the part of this rank, and finds its ghosts. Sums of the run so far are kept by the first rank. Collective.
 /// @param whole of the run, the same on all ranks
