@@ -52,8 +52,8 @@ Json fault_json(const Diagnostic& fault) {
   return json;
 }
 
-/// @param loaded present if there are no errors
-Json report_json(const Diagnostics& diagnostics, const std::optional<LoadedScene>& loaded) {
+/// @param loaded not null if there are no errors
+Json report_json(const Diagnostics& diagnostics, const LoadedScene* loaded) {
   Json json{{"good", diagnostics.good()}, {"faults", Json::array()}};
   for (const Diagnostic& fault : diagnostics.listed()) json["faults"].push_back(fault_json(fault));
   if (!diagnostics.good()) return json;
@@ -75,17 +75,17 @@ Json report_json(const Diagnostics& diagnostics, const std::optional<LoadedScene
 
 int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err) {
   Diagnostics diagnostics;
-  std::optional<LoadedScene> loaded, staged;
-  const LoadedScene* first = nullptr;  // of its stages, or the whole
+  std::shared_ptr<const LoadedScene> loaded;
   std::optional<BuiltSimulation> built;
   {
     Preparation preparation(false, err);
-    loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
-    if (loaded) first = loaded->scene.stage.empty() ? &*loaded : &staged.emplace(stage_of(*loaded, 0));
-    if (first != nullptr) built = build_first_stage(*first, 1, diagnostics, &preparation);
+    if (auto scene = load_scene(options.scene, options.overrides, diagnostics, &preparation)) {
+      loaded = std::make_shared<const LoadedScene>(std::move(*scene));
+      built = build_first_stage(stage_scene(loaded, 0), 1, diagnostics, &preparation);
+    }
   }
   if (options.json) {
-    out << json_text(report_json(diagnostics, loaded), 2) << '\n';
+    out << json_text(report_json(diagnostics, loaded.get()), 2) << '\n';
   } else {
     diagnostics.print(err);
     if (diagnostics.good()) print_report(options.scene, *loaded, out);

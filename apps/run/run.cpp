@@ -35,7 +35,7 @@ BuiltSimulation first_stage(const std::shared_ptr<const LoadedScene>& scene, int
   if (threads < 1) throw std::invalid_argument(fmt::format("threads is {}, at least 1 is needed", threads));
   Diagnostics diagnostics;
   std::optional<BuiltSimulation> built =
-      build_first_stage(*stage_scene(scene, 0), threads, diagnostics, nullptr, ranks);
+      build_first_stage(stage_scene(scene, 0), threads, diagnostics, nullptr, ranks);
   for (const Diagnostic& fault : diagnostics.sorted())
     if (fault.severity == Severity::error) throw std::invalid_argument(to_string(fault));
   return std::move(*built);
@@ -54,7 +54,7 @@ Run::Run(const std::shared_ptr<const LoadedScene>& scene, const RunManner& manne
 
 Run::Run(std::shared_ptr<const LoadedScene> scene, BuiltSimulation built, const RunManner& manner)
     : scene_(std::move(scene)),
-      present_(stage_scene(scene_, 0)),
+      present_(built.scene ? built.scene : stage_scene(scene_, 0)),
       identity_(scene_identity(*scene_)),
       manner_(manner),
       built_(std::move(built)),
@@ -188,8 +188,8 @@ bool Run::begin_next_stage() {
   const std::string& name = whole().stage[next].name;
   try {
     const auto scene = stage_scene(scene_, next);
-    BuiltSimulation stage = built_or_thrown(*scene, manner_.threads);
-    stage.simulation.start_stage(built_.simulation.snapshot(), was_absent);
+    BuiltSimulation stage = built_stage(scene, manner_.threads, manner_.ranks);
+    stage.simulation.start_stage(built_.simulation);
     if (const auto overlap = overlap_of_added(stage.simulation, was_absent)) {
       message_ = fmt::format("stage {} cannot begin: {}", name, *overlap);
       end(RunStatus::failed);
@@ -209,6 +209,7 @@ bool Run::begin_next_stage() {
   ++place_.stage;
   changes_.forget();
   message_.clear();
+  if (shared()) built_.simulation.gather_results({}, own_contact_counts(simulation()));
   if (manner_.keeps_history && whole().stage[next].reset_displacement) reset_displacement();
   phase_ = Phase::stage_start;
   return true;

@@ -145,7 +145,7 @@ void Run::resume(RunCheckpoint checkpoint) {
     throw std::logic_error("the run has begun, a new one is needed");
   if (!checkpoint.stages.empty()) {
     present_ = stage_scene(scene_, checkpoint.stages.size());
-    built_ = built_or_thrown(*present_, manner_.threads);
+    built_ = built_stage(present_, manner_.threads, manner_.ranks);
   }
   if (whole().analysis.accuracy) {
     accuracy_ = checkpoint.accuracy;

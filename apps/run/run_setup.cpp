@@ -24,6 +24,17 @@ void refuse_idle_cracks(const Scene& scene, const std::vector<BlockModel>& block
   }
 }
 
+/// @throws std::runtime_error with the first fault
+BuiltSimulation built_with(const LoadedScene& stage, int threads, const TrialFactors& factors,
+                           const RunRanks* ranks) {
+  Diagnostics diagnostics;
+  std::optional<BuiltSimulation> built =
+      build_simulation(stage, threads, diagnostics, nullptr, factors, ranks);
+  if (built) return std::move(*built);
+  const std::vector<Diagnostic> faults = diagnostics.sorted();
+  throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
+}
+
 }  // namespace
 
 std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const LoadedScene>& whole,
@@ -32,12 +43,13 @@ std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const Loade
   return std::make_shared<const LoadedScene>(stage_of(*whole, stage));
 }
 
-std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int threads,
+std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedScene> first, int threads,
                                                  Diagnostics& diagnostics, Preparation* preparation,
                                                  const RunRanks* ranks) {
-  const Scene& scene = first.scene;
+  const Scene& scene = first->scene;
   std::optional<BuiltSimulation> built =
-      build_simulation(first, threads, diagnostics, preparation, {}, ranks);
+      build_simulation(*first, threads, diagnostics, preparation, {}, ranks);
+  if (built) built->scene = first;
   if (built && is_static(scene.analysis)) refuse_loose_blocks(scene, built->simulation, diagnostics);
   if (!built || !diagnostics.good()) return built;
   const std::optional<RigidModel> model = limit_model(scene, built->simulation);
@@ -49,11 +61,13 @@ std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int t
 }
 
 BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads, const TrialFactors& factors) {
-  Diagnostics diagnostics;
-  std::optional<BuiltSimulation> built = build_simulation(stage, threads, diagnostics, nullptr, factors);
-  if (built) return std::move(*built);
-  const std::vector<Diagnostic> faults = diagnostics.sorted();
-  throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
+  return built_with(stage, threads, factors, nullptr);
+}
+
+BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads, const RunRanks* ranks) {
+  BuiltSimulation built = built_with(*stage, threads, {}, ranks);
+  built.scene = std::move(stage);
+  return built;
 }
 
 }  // namespace ashlar

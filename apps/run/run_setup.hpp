@@ -15,15 +15,18 @@ namespace ashlar {
 
 /// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, searches
 /// with nothing to find, and cracks without joints.
-/// @param first of stage_scene(). @param threads >= 1. @param ranks see build_simulation
+/// @param first of stage_scene(), kept with the result. @param threads >= 1. @param ranks see build_simulation
 /// @return empty if a block cannot be built
-[[nodiscard]] std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int threads,
-                                                               Diagnostics& diagnostics,
+[[nodiscard]] std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedScene> first,
+                                                               int threads, Diagnostics& diagnostics,
                                                                Preparation* preparation = nullptr,
                                                                const RunRanks* ranks = nullptr);
 
 /// The simulation of a stage. @throws std::runtime_error if its blocks cannot be built
 [[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads,
                                               const TrialFactors& factors = {});
+/// The same, which ranks may share; collective then. @param stage not null, kept with the result. @param ranks null: none
+[[nodiscard]] BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads,
+                                          const RunRanks* ranks);
 
 }  // namespace ashlar

@@ -119,7 +119,7 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
   const auto scene = std::make_shared<const LoadedScene>(std::move(*loaded));
   prepared.cost = scene->cost;
   std::optional<BuiltSimulation> built =
-      build_first_stage(*stage_scene(scene, 0), threads, diagnostics, &preparation, ranks);
+      build_first_stage(stage_scene(scene, 0), threads, diagnostics, &preparation, ranks);
   if (!built) return prepared;
   const Run& run = prepared.run.emplace(scene, std::move(*built), RunManner{threads, false, began, ranks});
   if (!options.explained_pair.empty())

@@ -360,7 +360,8 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
       std::move(choices),
       parts.size(),
       {},
-      loaded.overlaps};
+      loaded.overlaps,
+      nullptr};
   built.simulation.start_overlapping(depths_without_force(loaded));
   if (!scene.water.empty())
     built.simulation.set_joint_pressure([water](int a, int b, const Vector3& place) {

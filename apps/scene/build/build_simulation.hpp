@@ -1,6 +1,7 @@
 // From a checked scene to a simulation: materials, supports, loads, joint laws and all automatic values.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,6 +27,8 @@ struct BuiltSimulation {
   /// Moving blocks not settled by an initial_state of equilibrium.
   std::vector<std::string> as_placed;
   std::vector<KnownOverlap> overlaps;  ///< of the scene, see LoadedScene
+  /// Kept for several ranks, which make models of blocks that come near later; null: it is kept elsewhere
+  std::shared_ptr<const LoadedScene> scene = nullptr;
 };
 
 /// Changes of a scene by a search for a factor (analysis.safety, analysis.capacity).

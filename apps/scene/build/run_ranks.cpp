@@ -11,7 +11,9 @@ namespace {
 
 /// The blocks that a rank tells a partition of: every count-th. Blocks whose boxes are within a distance count as
 /// neighbours with a point at each corner of a common rectangle; contacts are not known before the first step.
-std::vector<PartitionBlock> blocks_to_share(const std::vector<BlockModel>& blocks, double distance,
+/// @param absent by block, or empty
+std::vector<PartitionBlock> blocks_to_share(const std::vector<BlockModel>& blocks,
+                                            const std::vector<bool>& absent, double distance,
                                             const Ranks& ranks) {
   constexpr int points = 4;
   std::vector<Box> boxes;
@@ -19,7 +21,9 @@ std::vector<PartitionBlock> blocks_to_share(const std::vector<BlockModel>& block
   for (const BlockModel& block : blocks)
     boxes.push_back(box_of(block.solid().mesh().points).grown(0.5 * distance));
   std::vector<std::vector<int>> neighbours(blocks.size());
+  const auto is_absent = [&absent](int block) { return !absent.empty() && absent[at(block)]; };
   for (const auto& [a, b] : meeting_boxes(boxes)) {
+    if (is_absent(a) || is_absent(b)) continue;
     if (blocks[at(a)].fixed() || blocks[at(b)].fixed()) continue;
     neighbours[at(a)].push_back(b);
     neighbours[at(b)].push_back(a);
@@ -30,8 +34,9 @@ std::vector<PartitionBlock> blocks_to_share(const std::vector<BlockModel>& block
     block.block = k;
     block.neighbours = std::move(neighbours[at(k)]);
     block.points.assign(block.neighbours.size(), points);
-    block.weight = std::max(
-        1.0, weight_of_block(blocks[at(k)].freedom(), points * static_cast<int>(block.points.size())));
+    if (!is_absent(k))
+      block.weight = std::max(
+          1.0, weight_of_block(blocks[at(k)].freedom(), points * static_cast<int>(block.points.size())));
     block.centroid = blocks[at(k)].basis().centroid();
   }
   return own;
@@ -46,7 +51,8 @@ Simulation simulation_of(const RunRanks* shared, SimulationParts parts, const Bl
   const RunRanks& ranks = *shared;
   const auto count = static_cast<int>(parts.blocks.size());
   std::vector<int> owners = ranks.partition(
-      ranks.ranks, blocks_to_share(parts.blocks, parts.settings.contact_distance, ranks.ranks), count);
+      ranks.ranks, blocks_to_share(parts.blocks, parts.absent, parts.settings.contact_distance, ranks.ranks),
+      count);
   // Blocks near at the start have been made; later ones are made again.
   const auto made = std::make_shared<std::vector<BlockModel>>(std::move(parts.blocks));
   const BlockLoader made_or_loaded = [made, load](int block) {

@@ -9,6 +9,7 @@
 #include "apps/scene/check/initial_overlap.hpp"
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
+#include "solver/ranks/block_share.hpp"
 
 namespace ashlar {
 namespace {
@@ -33,37 +34,54 @@ struct PlacedBlocks {
   }
 };
 
-}  // namespace
+struct AddedOverlap {
+  double beyond = 0.0;  ///< m, of what is allowed
+  PairKey blocks = {-1, -1};
+  std::string fault;  ///< empty: all fit
+};
 
-std::optional<std::string> overlap_of_added(const Simulation& simulation,
-                                            const std::vector<bool>& was_absent) {
+/// The overlap farthest beyond what is allowed, of pairs that this rank makes.
+AddedOverlap overlap_here(const Simulation& simulation, const std::vector<bool>& was_absent) {
   const BlockSystem& system = simulation.system();
   PlacedBlocks added, others;
   for (int k = 0; k < system.count(); ++k)
-    if (system.present(k) && was_absent[at(k)]) added.add(simulation, k);
-  if (added.blocks.empty()) return std::nullopt;
+    if (system.here(k) && was_absent[at(k)]) added.add(simulation, k);
+  AddedOverlap most;
+  if (added.blocks.empty()) return most;
   for (int k = 0; k < system.count(); ++k)
-    if (system.present(k) && !was_absent[at(k)]) others.add(simulation, k);
+    if (system.here(k) && !was_absent[at(k)]) others.add(simulation, k);
   const DepthSettings& depth = system.settings().depth;
-  std::optional<std::string> fault;
-  double most = 0.0;
   for (const auto& [i, j] : meeting_boxes(added.boxes, others.boxes)) {
     const int a = added.blocks[at(i)], b = others.blocks[at(j)];
+    const PairKey pair = {std::min(a, b), std::max(a, b)};
     if (simulation.blocks()[at(a)].fixed() && simulation.blocks()[at(b)].fixed()) continue;
-    const double placed = history_of(simulation.histories(), {std::min(a, b), std::max(a, b)}).overlap;
+    if (!system.owns_pair(pair[0], pair[1])) continue;
+    const double placed = history_of(simulation.histories(), pair).overlap;
     const double allowed =
         placed + (depth.allowed_depth > 0.0 ? depth.allowed_depth
                                             : depth.unknown_depth_share * system.smaller_size({a, b}));
     const OverlapDepth overlap = overlap_depth(added.solid(simulation, i), others.solid(simulation, j));
-    if (overlap.depth - allowed <= most) continue;
-    most = overlap.depth - allowed;
-    fault = fmt::format(
-        "the stage adds block {} where block {} is now: they overlap by {}{:.3g} m, allowed is "
-        "{:.3g} m",
-        simulation.blocks()[at(a)].name(), simulation.blocks()[at(b)].name(),
-        overlap.exact ? "" : "at least ", overlap.depth, allowed);
+    if (overlap.depth - allowed <= most.beyond) continue;
+    most = {overlap.depth - allowed, pair,
+            fmt::format("the stage adds block {} where block {} is now: they overlap by {}{:.3g} m, "
+                        "allowed is {:.3g} m",
+                        simulation.blocks()[at(a)].name(), simulation.blocks()[at(b)].name(),
+                        overlap.exact ? "" : "at least ", overlap.depth, allowed)};
   }
-  return fault;
+  return most;
+}
+
+}  // namespace
+
+std::optional<std::string> overlap_of_added(const Simulation& simulation,
+                                            const std::vector<bool>& was_absent) {
+  AddedOverlap most = overlap_here(simulation, was_absent);
+  if (const BlockShare* share = simulation.system().share(); share != nullptr)
+    for (AddedOverlap& other : values_of_ranks(share->ranks(), most))
+      if (other.beyond > most.beyond || (other.beyond == most.beyond && other.blocks < most.blocks))
+        most = std::move(other);
+  if (most.fault.empty()) return std::nullopt;
+  return std::move(most.fault);
 }
 
 }  // namespace ashlar
