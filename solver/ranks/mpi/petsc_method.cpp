@@ -16,6 +16,38 @@ constexpr PetscInt mumps_negative_pivots = 12;  // INFOG
 
 constexpr PetscInt most_petsc_iterations = 3000;
 
+/// Options that users leave open, while PETSc reads them. All methods of a process share its options, and would find
+/// those of another method as if users had given them.
+class DefaultOptions {
+ public:
+  explicit DefaultOptions(const std::string& prefix) : start_("-" + prefix) {}
+  ~DefaultOptions() {
+    for (const std::string& name : set_) (void)PetscOptionsClearValue(nullptr, name.c_str());
+  }
+  DefaultOptions(const DefaultOptions&) = delete;
+  DefaultOptions& operator=(const DefaultOptions&) = delete;
+
+  void set(const char* name, const char* value) {
+    const std::string full = start_ + name;
+    PetscBool given = PETSC_FALSE;
+    check_petsc(PetscOptionsHasName(nullptr, nullptr, full.c_str(), &given));
+    if (given == PETSC_TRUE) return;
+    check_petsc(PetscOptionsSetValue(nullptr, full.c_str(), value));
+    set_.push_back(full);
+  }
+
+ private:
+  std::string start_;
+  std::vector<std::string> set_;
+};
+
+/// Joins neighbours only, not their neighbours too, which takes three quarters of the iterations
+/// (../../notes/rank_solver.md), and smooths by the diagonal blocks of bodies of one size, else by point relaxation.
+void set_multigrid(DefaultOptions& options, const PetscMatrix& matrix) {
+  options.set("pc_gamg_aggressive_coarsening", "0");
+  options.set("mg_levels_pc_type", matrix.common_size() > 1 ? PCPBJACOBI : PCSOR);
+}
+
 }  // namespace
 
 PetscMethod::PetscMethod(Ranks& ranks, const std::vector<BodyRows>& rows, std::int64_t most_factored,
@@ -41,17 +73,6 @@ std::string PetscMethod::option(const char* name) const {
   return given == PETSC_TRUE ? value.data() : "";
 }
 
-/// Where options leave it open: joins neighbours only, not their neighbours too, which takes three quarters of the
-/// iterations (../../notes/rank_solver.md), and smooths by the diagonal blocks of bodies of one size, else by point
-/// relaxation.
-void PetscMethod::choose_multigrid() const {
-  const auto set = [this](const char* name, const char* value) {
-    if (option(name).empty()) check_petsc(PetscOptionsSetValue(nullptr, name, value));
-  };
-  set("-pc_gamg_aggressive_coarsening", "0");
-  set("-mg_levels_pc_type", matrix_.common_size() > 1 ? PCPBJACOBI : PCSOR);
-}
-
 void PetscMethod::choose(std::int64_t most_factored) {
   const std::string wanted = option("-pc_type");
   const bool factor = wanted.empty() ? matrix_.unknowns() <= most_factored : wanted == PCCHOLESKY;
@@ -59,6 +80,7 @@ void PetscMethod::choose(std::int64_t most_factored) {
   check_petsc(KSPCreate(PETSC_COMM_WORLD, &solver_));
   check_petsc(KSPSetOptionsPrefix(solver_, prefix_.c_str()));
   check_petsc(KSPGetPC(solver_, &preconditioner_));
+  DefaultOptions defaults(prefix_);
   if (factor) {
     check_petsc(KSPSetType(solver_, KSPPREONLY));
     check_petsc(PCSetType(preconditioner_, PCCHOLESKY));
@@ -67,7 +89,7 @@ void PetscMethod::choose(std::int64_t most_factored) {
     check_petsc(KSPSetType(solver_, KSPCG));
     check_petsc(KSPSetNormType(solver_, KSP_NORM_UNPRECONDITIONED));
     check_petsc(PCSetType(preconditioner_, PCGAMG));
-    choose_multigrid();
+    set_multigrid(defaults, matrix_);
   }
   check_petsc(KSPSetTolerances(solver_, petsc_refined_tolerance, 0.0, PETSC_DEFAULT, most_petsc_iterations));
   check_petsc(KSPSetFromOptions(solver_));
@@ -104,6 +126,8 @@ FactorStatus PetscMethod::set_up(const std::vector<BodyRows>& rows) {
   matrix_.fill(rows);
   if (by_multigrid_) matrix_.set_rigid_motions(rows);
   check_petsc(KSPSetOperators(solver_, matrix_.get(), matrix_.get()));
+  DefaultOptions defaults(prefix_);
+  if (by_multigrid_) set_multigrid(defaults, matrix_);
   const PCFailedReason reason = factorize();
   if (reason == PC_FACTOR_OUTMEMORY) throw std::bad_alloc();
   if (reason != PC_NOERROR) return FactorStatus::not_positive_definite;

@@ -41,7 +41,6 @@ class PetscMethod {
  private:
   [[nodiscard]] std::string option(const char* name) const;
   void choose(std::int64_t most_factored);
-  void choose_multigrid() const;
   [[nodiscard]] PCFailedReason factorize();
   void refine();
 
