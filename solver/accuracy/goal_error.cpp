@@ -32,7 +32,10 @@ std::vector<BlockModel> with_next_orders(const Simulation& simulation) {
   int unknowns = 0;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     any = any || higher[k].has_value();
-    result.push_back(higher[k] ? std::move(*higher[k]) : blocks[k]);
+    if (higher[k])
+      result.push_back(std::move(*higher[k]));
+    else
+      result.push_back(blocks[k]);
     if (simulation.system().moving()[k]) unknowns += result.back().unknowns();
   }
   return any && unknowns <= largest_goal_system ? std::move(result) : std::vector<BlockModel>{};

@@ -60,7 +60,7 @@ RunTotals totals_here(const Simulation& simulation, const ShownContacts& shown) 
 }  // namespace
 
 RunTotals totals_of_run(const Simulation& simulation, const ShownContacts& shown) {
-  const RunTotals here = totals_here(simulation, shown);
+  RunTotals here = totals_here(simulation, shown);
   const BlockShare* share = simulation.system().share();
   if (share == nullptr) return here;
   RunTotals sum;

@@ -278,6 +278,19 @@ TEST(PetscSolver, MultigridSolvesAnElasticChain) {
   EXPECT_LT(5 * solver->counts().gradient_iterations, blocks->counts().gradient_iterations);
 }
 
+// A default for bodies of one size is none for those of many.
+TEST(PetscSolver, MultigridLeavesOptionsToOthers) {
+  const auto solver = make_petsc_solver(test_ranks(), {.most_factored = 0});
+  const DenseSystem system = chain_of_cubes(12);
+  const std::vector<int> owners = in_turn(system.bodies(), test_ranks().count());
+  EXPECT_EQ(solver->factorize(rows_of(system, owners, test_ranks().own())), FactorStatus::success);
+  for (const char* option : {"-mg_levels_pc_type", "-pc_gamg_aggressive_coarsening"}) {
+    PetscBool given = PETSC_FALSE;
+    PetscOptionsHasName(nullptr, nullptr, option, &given);
+    EXPECT_EQ(given, PETSC_FALSE) << option;
+  }
+}
+
 TEST(PetscSolver, OptionsChooseTheMethod) {
   const WithOption method("-ksp_type", "cg");
   const WithOption preconditioner("-pc_type", "bjacobi");

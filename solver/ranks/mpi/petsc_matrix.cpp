@@ -14,6 +14,7 @@ namespace {
 
 std::vector<int> sizes_of(const std::vector<BodyRows>& rows) {
   std::vector<int> sizes;
+  sizes.reserve(rows.size());
   for (const BodyRows& row : rows) sizes.push_back(static_cast<int>(row.blocks.front().rows()));
   return sizes;
 }

@@ -19,6 +19,38 @@ constexpr PetscInt mumps_operations = 1;        // RINFOG: of the elimination, e
 
 constexpr PetscInt most_petsc_iterations = 3000;
 
+/// Options that users leave open, while PETSc reads them. All methods of a process share its options, and would find
+/// those of another method as if users had given them.
+class DefaultOptions {
+ public:
+  explicit DefaultOptions(const std::string& prefix) : start_("-" + prefix) {}
+  ~DefaultOptions() {
+    for (const std::string& name : set_) (void)PetscOptionsClearValue(nullptr, name.c_str());
+  }
+  DefaultOptions(const DefaultOptions&) = delete;
+  DefaultOptions& operator=(const DefaultOptions&) = delete;
+
+  void set(const char* name, const char* value) {
+    const std::string full = start_ + name;
+    PetscBool given = PETSC_FALSE;
+    check_petsc(PetscOptionsHasName(nullptr, nullptr, full.c_str(), &given));
+    if (given == PETSC_TRUE) return;
+    check_petsc(PetscOptionsSetValue(nullptr, full.c_str(), value));
+    set_.push_back(full);
+  }
+
+ private:
+  std::string start_;
+  std::vector<std::string> set_;
+};
+
+/// Joins neighbours only, not their neighbours too, which takes three quarters of the iterations
+/// (../../notes/rank_solver.md), and smooths by the diagonal blocks of bodies of one size, else by point relaxation.
+void set_multigrid(DefaultOptions& options, const PetscMatrix& matrix) {
+  options.set("pc_gamg_aggressive_coarsening", "0");
+  options.set("mg_levels_pc_type", matrix.common_size() > 1 ? PCPBJACOBI : PCSOR);
+}
+
 }  // namespace
 
 PetscMethod::PetscMethod(Ranks& ranks, const std::vector<BodyRows>& rows, std::int64_t most_factored,
@@ -44,19 +76,6 @@ std::string PetscMethod::option(const char* name) const {
   return given == PETSC_TRUE ? value.data() : "";
 }
 
-void PetscMethod::set_default(const char* name, const char* value) const {
-  if (option(name).empty())
-    check_petsc(PetscOptionsSetValue(nullptr, ("-" + prefix_ + (name + 1)).c_str(), value));
-}
-
-/// Where options leave it open: joins neighbours only, not their neighbours too, which takes three quarters of the
-/// iterations (../../notes/rank_solver.md), and smooths by the diagonal blocks of bodies of one size, else by point
-/// relaxation.
-void PetscMethod::choose_multigrid() const {
-  set_default("-pc_gamg_aggressive_coarsening", "0");
-  set_default("-mg_levels_pc_type", matrix_.common_size() > 1 ? PCPBJACOBI : PCSOR);
-}
-
 void PetscMethod::choose(std::int64_t most_factored) {
   const std::string wanted = option("-pc_type");
   const bool factor = wanted.empty() ? matrix_.unknowns() <= most_factored : wanted == PCCHOLESKY;
@@ -64,16 +83,16 @@ void PetscMethod::choose(std::int64_t most_factored) {
   check_petsc(KSPCreate(PETSC_COMM_WORLD, &solver_));
   check_petsc(KSPSetOptionsPrefix(solver_, prefix_.c_str()));
   check_petsc(KSPGetPC(solver_, &preconditioner_));
+  DefaultOptions defaults(prefix_);
   if (factor) {
     check_petsc(KSPSetType(solver_, KSPPREONLY));
     check_petsc(PCSetType(preconditioner_, PCCHOLESKY));
     check_petsc(PCFactorSetMatSolverType(preconditioner_, MATSOLVERMUMPS));
-    set_default("-mat_mumps_icntl_20", "0");  // right sides are gathered: a sixth less time for a solution
   } else {
     check_petsc(KSPSetType(solver_, KSPCG));
     check_petsc(KSPSetNormType(solver_, KSP_NORM_UNPRECONDITIONED));
     check_petsc(PCSetType(preconditioner_, PCGAMG));
-    choose_multigrid();
+    set_multigrid(defaults, matrix_);
   }
   check_petsc(KSPSetTolerances(solver_, petsc_refined_tolerance, 0.0, PETSC_DEFAULT, most_petsc_iterations));
   check_petsc(KSPSetFromOptions(solver_));
@@ -92,6 +111,9 @@ void PetscMethod::choose(std::int64_t most_factored) {
 /// MUMPS sees only while it factorises how much memory pivots and messages need beyond its estimate.
 PCFailedReason PetscMethod::factorize() {
   constexpr PetscInt first = 30, most = 500;
+  DefaultOptions defaults(prefix_);
+  // Right sides are gathered: a sixth less time for a solution.
+  if (by_mumps_) defaults.set("mat_mumps_icntl_20", "0");
   for (PetscInt spare = first;; spare *= 2) {
     if (by_mumps_) {
       Mat factor = nullptr;
@@ -111,6 +133,8 @@ FactorStatus PetscMethod::set_up(const std::vector<BodyRows>& rows) {
   matrix_.fill(rows);
   if (by_multigrid_) matrix_.set_rigid_motions(rows);
   check_petsc(KSPSetOperators(solver_, matrix_.get(), matrix_.get()));
+  DefaultOptions defaults(prefix_);
+  if (by_multigrid_) set_multigrid(defaults, matrix_);
   const PCFailedReason reason = factorize();
   if (reason == PC_FACTOR_OUTMEMORY) throw std::bad_alloc();
   if (reason != PC_NOERROR) return FactorStatus::not_positive_definite;

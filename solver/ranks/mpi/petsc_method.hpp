@@ -43,9 +43,6 @@ class PetscMethod {
  private:
   [[nodiscard]] std::string option(const char* name) const;
   void choose(std::int64_t most_factored);
-  void choose_multigrid() const;
-  /// Sets an option that is not given. @param name with "-", without the prefix
-  void set_default(const char* name, const char* value) const;
   [[nodiscard]] PCFailedReason factorize();
   void refine();
   void count_cost(Mat factor);
