@@ -23,6 +23,7 @@
 #include "solver/step/agreement.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/rank_balance.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_snapshot.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
@@ -98,6 +99,7 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
   const TrafficOfResults traffic(*shared_);
   ToldResults told{totals_of_run(*this, shown), {}, {}};
   const bool first = system_.share()->ranks().own() == 0;
+  send_bolts_to_first(system_, state_);
   if (needs.all || !needs.pairs.empty()) told.contacts = contacts_of_run(*this, needs);
   if (needs.all || !needs.blocks.empty()) {
     std::vector<BlockState> states = states_of_run(*this, needs);
@@ -184,9 +186,14 @@ std::optional<StressImbalance> Simulation::start_stressed() {
 
 void Simulation::add_bolts(std::vector<Bolt> bolts) {
   refuse_late("add_bolts");
-  if (!bolts.empty()) refuse_ranks("bolts and props");
   if (!system_.bolts().empty()) throw std::logic_error("all bolts of a run are added together");
-  system_.set_bolts(std::move(bolts));
+  const auto set = [&] { system_.set_bolts(std::move(bolts)); };
+  if (shared_ == nullptr) {
+    set();
+  } else {
+    do_on_all(system_.share()->ranks(), set);
+    find_ghosts(*shared_, system_, state_, caches_);
+  }
   state_.ledger.springs_hold(install_bolts(system_, state_));
   state_.ledger.start(system_, state_.states);
 }

@@ -5,6 +5,7 @@
 #include "solver/statics/static_step.hpp"
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/ghosts.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_snapshot.hpp"
 #include "solver/step/snapshot.hpp"
 
@@ -39,7 +40,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   }
   for (auto& [blocks, pair] : state.pairs) pair.work = 0.0;
   commit_bolts(state);
-  for (const BoltState& bolt : state.bolts) in_springs += bolt.stored;
+  for (std::size_t k = 0; k < state.bolts.size(); ++k)
+    if (owns_bolt(system, k)) in_springs += state.bolts[k].stored;
   in_springs += energy_of_ties(system, state, run.caches.contacts);
   state.log.rejections.clear();
   state.steps = 0;

@@ -12,6 +12,7 @@
 #include "geometry/solid/face_axes.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/step_problem.hpp"
 
@@ -216,8 +217,8 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
                      system.blocks()[at(k)].fixed()});
   }
   const double reach = max_of_ranks(share.ranks(), reach_of(system.settings(), state));
-  change_ghosts(shared, system, state, caches,
-                with_tied(shared, ghosts_of(share, boxes, reach + 2.0 * shared.margin)));
+  const std::vector<int> near = ghosts_of(share, boxes, reach + 2.0 * shared.margin);
+  change_ghosts(shared, system, state, caches, with_bolted(system, with_tied(shared, near)));
   update_ghosts(system, state);
   update_ghost_contacts(system, state);
   for (int k = 0; k < system.count(); ++k) shared.paths[at(k)] = finder.path(k);

@@ -8,6 +8,8 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/bolts/bolted_blocks.hpp"
+#include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
 namespace {
@@ -45,6 +47,13 @@ std::vector<PartitionBlock> blocks_of_rank(const BlockSystem& system, const RunS
       all[one] += count;
       if (moves(other)) points[one][other] = count;
     }
+  }
+  for (std::size_t n = 0; n < system.bolts().size(); ++n) {
+    if (!state.bolts[n].installed()) continue;
+    const std::vector<int> bolted = present_blocks(system.bolts()[n].chain);
+    for (const int one : bolted)
+      for (const int other : bolted)
+        if (one != other && share.owns(one) && moves(one) && moves(other)) ++points[one][other];
   }
   std::vector<PartitionBlock> own;
   for (const int k : share.own()) {
@@ -232,6 +241,7 @@ bool balance_ranks(SharedBlocks& shared, BlockSystem& system, RunState& state, S
 void change_owners(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                    std::vector<int> owners) {
   ContactFinder& finder = caches.contacts.finder();
+  tell_bolts(system, state);
   std::vector<MovedPart> parts =
       exchanged(shared.share->ranks(), parts_to_send(system, state, finder.state(), owners));
   const std::vector<int> before = shared.share->own();

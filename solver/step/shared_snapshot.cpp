@@ -7,6 +7,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
 namespace {
@@ -38,13 +39,15 @@ void take_block(int block, const SimulationSnapshot& from, SimulationSnapshot& t
   take_value(block, statics.onset.starts, taken.onset.starts);
 }
 
-/// Removes pairs that other ranks tell.
-void keep_own_pairs(const BlockSystem& system, RunState& run) {
+/// Removes pairs and bolts that other ranks tell.
+void keep_own(const BlockSystem& system, RunState& run) {
   std::erase_if(run.pairs,
                 [&](const auto& entry) { return !system.owns_pair(entry.first[0], entry.first[1]); });
   std::erase_if(run.records, [&](const PairRecord& record) { return !system.owns_pair(record.a, record.b); });
   std::erase_if(run.statics.onset.sliding,
                 [&](const PairKey& pair) { return !system.owns_pair(pair[0], pair[1]); });
+  for (std::size_t k = 0; k < run.bolts.size(); ++k)
+    if (!owns_bolt(system, k)) run.bolts[k] = {};
 }
 
 void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
@@ -53,6 +56,8 @@ void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, Simu
   // All ranks list the same islands, each with the energy that it holds.
   for (std::size_t k = 0; k < whole.run.sleep.islands.size(); ++k)
     whole.run.sleep.islands[k].held += part.run.sleep.islands.at(k).held;
+  for (std::size_t k = 0; k < whole.run.bolts.size(); ++k)
+    if (part.run.bolts[k].installed()) whole.run.bolts[k] = part.run.bolts[k];
   whole.run.pairs.merge(part.run.pairs);
   whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
   std::vector<PairKey>& sliding = whole.run.statics.onset.sliding;
@@ -101,7 +106,7 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
 SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
                                   const RunTotals* totals) {
   const BlockShare& share = *system.share();
-  keep_own_pairs(system, part.run);
+  keep_own(system, part.run);
   part.factors.clear();
   const double balance = sum_of_ranks(share.ranks(), part.run.ledger.start_balance());
   send_to_first(
