@@ -58,7 +58,6 @@ Simulation::Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& mo
   do_on_all(system_.share()->ranks(), [this] {
     for (const BlockModel& block : system_.blocks()) {
       if (block.incremental() != nullptr) refuse_ranks("incremental blocks");
-      if (block.quiet()) refuse_ranks("quiet boundaries");
     }
   });
 }

@@ -12,6 +12,7 @@
 #include "geometry/solid/face_axes.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/step/ghost_models.hpp"
 #include "solver/step/shared_bolts.hpp"
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/step_problem.hpp"
@@ -197,6 +198,7 @@ void change_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, S
     set_block_here(system, state, caches, block, shared.keeps_models ? known(block) : placeholder(), false);
   for (std::size_t k = 0; k < come.size(); ++k)
     set_block_here(system, state, caches, come[k], std::move(models[k]), true);
+  update_ghost_models(system, state, caches);
   hold_sleepers(system, state.sleep);
   caches.contacts.forget_border_pairs();
 }

@@ -9,6 +9,7 @@
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
 #include "solver/bolts/bolted_blocks.hpp"
+#include "solver/step/quiet_release.hpp"
 #include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
@@ -23,6 +24,7 @@ struct MovedBlock {
   BlockRest rest;
   BlockTrack track;
   SurfaceDivision division;
+  Eigen::MatrixX3d reaction;  ///< released_reaction()
 };
 
 /// Message of a rank to a new owner.
@@ -102,7 +104,8 @@ std::vector<MovedPart> parts_to_send(const BlockSystem& system, const RunState& 
     parts[at(owners[at(k)])].blocks.push_back(
         {k, state.states[at(k)],
          state.accelerations.empty() ? Eigen::MatrixX3d() : state.accelerations[at(k)],
-         state.spin_debts[at(k)], state.sleep.rests[at(k)], finder.tracks[at(k)], finder.divisions[at(k)]});
+         state.spin_debts[at(k)], state.sleep.rests[at(k)], finder.tracks[at(k)], finder.divisions[at(k)],
+         released_reaction(system.blocks()[at(k)])});
   }
   // Ranks that have to know a pair which this one has made until now, if one of its blocks goes elsewhere.
   const auto receivers = [&](int a, int b) {
@@ -152,6 +155,11 @@ void take_blocks(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
   for (const MovedPart& part : parts)
     for (const MovedBlock& moved : part.blocks)
       system.set_here(moved.block, system.blocks()[at(moved.block)], true);
+  BlockPartsLibrary library;
+  for (const MovedPart& part : parts)
+    for (const MovedBlock& moved : part.blocks)
+      if (system.blocks()[at(moved.block)].quiet())
+        set_reaction_of(system, state, caches, moved.block, moved.reaction, library);
   ContactFinder& finder = caches.contacts.finder();
   FinderState known = finder.state();
   for (MovedPart& part : parts) {

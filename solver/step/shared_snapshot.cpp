@@ -50,6 +50,12 @@ void keep_own(const BlockSystem& system, RunState& run) {
     if (!owns_bolt(system, k)) run.bolts[k] = {};
 }
 
+/// Removes reactions of blocks elsewhere.
+template <class Keeps>
+void keep_reactions(std::map<int, Eigen::MatrixX3d>& reactions, const Keeps& keeps) {
+  std::erase_if(reactions, [&](const auto& entry) { return !keeps(entry.first); });
+}
+
 void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
   for (int block = 0; block < share.count(); ++block)
     if (share.owner(block) == rank) take_block(block, part, whole);
@@ -58,6 +64,7 @@ void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, Simu
     whole.run.sleep.islands[k].held += part.run.sleep.islands.at(k).held;
   for (std::size_t k = 0; k < whole.run.bolts.size(); ++k)
     if (part.run.bolts[k].installed()) whole.run.bolts[k] = part.run.bolts[k];
+  whole.reactions.merge(part.reactions);
   whole.run.pairs.merge(part.run.pairs);
   whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
   std::vector<PairKey>& sliding = whole.run.statics.onset.sliding;
@@ -86,6 +93,7 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
   for (int k = 0; k < system.count(); ++k)
     if (!system.here(k)) take_block(k, present, part);
   part.finder = finder_state_here(system, caches.contacts.finder(), whole, first);
+  keep_reactions(part.reactions, [&](int block) { return system.here(block); });
   part.factors.clear();
   part.run.pairs.clear();
   part.run.records.clear();
@@ -107,6 +115,7 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
                                   const RunTotals* totals) {
   const BlockShare& share = *system.share();
   keep_own(system, part.run);
+  keep_reactions(part.reactions, [&](int block) { return system.owns(block); });
   part.factors.clear();
   const double balance = sum_of_ranks(share.ranks(), part.run.ledger.start_balance());
   send_to_first(
@@ -133,8 +142,7 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
 
 void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                   const SimulationSnapshot& whole) {
-  if (whole.run.states.size() != at(system.count()) || !whole.carried.empty() || !whole.reactions.empty() ||
-      !whole.load_factors.empty())
+  if (whole.run.states.size() != at(system.count()) || !whole.carried.empty() || !whole.load_factors.empty())
     throw std::invalid_argument("the snapshot has other blocks");
   const bool first = shared.share->ranks().own() == 0;
   do_on_all(shared.share->ranks(),

@@ -21,7 +21,6 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
   refuse(scene.contact.allowed_overlap > 0.0, "contact.allowed_overlap", "an initial overlap");
   refuse(!scene.stage.empty(), "stage.0", "a staged analysis");
-  refuse(!scene.boundary.empty(), "boundary.0", "boundaries");
 }
 
 }  // namespace ashlar
