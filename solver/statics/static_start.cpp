@@ -4,6 +4,7 @@
 #include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/step/accepted_bolts.hpp"
+#include "solver/step/agreement.hpp"
 #include "solver/step/ghosts.hpp"
 #include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_snapshot.hpp"
@@ -55,7 +56,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
 
 double energy_of_ties(const BlockSystem& system, RunState& state, StepContacts& contacts) {
   double sum = 0.0;
-  if (system.ties().empty()) return sum;
+  // Collective: a rank may have no ties of a run that has some.
+  if (!any_of_run(system, !system.ties().empty())) return sum;
   for (const ContactPair& pair : contacts.pairs(system, state, {}, PairUse::statics))
     if (pair.tied() && system.owns_pair(pair.a(), pair.b())) sum += pair.start_energy();
   return sum;
