@@ -152,7 +152,6 @@ void Simulation::refuse_late(const char* call) const {
 
 void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   refuse_late("start_overlapping");
-  if (!depths.empty()) refuse_ranks("initial overlaps");
   if (!state_.pairs.empty()) throw std::logic_error("initial overlaps are set before the initial stress");
   for (const auto& [blocks, depth] : depths) {
     if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
@@ -169,6 +168,9 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
     double& deepest = placed[{pair.a(), pair.b()}];
     for (const ContactPoint& point : pair.points()) deepest = std::max(deepest, point.overlap);
   }
+  if (shared_ != nullptr)
+    for (const auto& of_rank : values_of_ranks(system_.share()->ranks(), placed))
+      placed.insert(of_rank.begin(), of_rank.end());
   state_.pairs.clear();
   for (const auto& [blocks, deepest] : placed)
     if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;

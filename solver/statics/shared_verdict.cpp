@@ -48,6 +48,8 @@ WholeRun whole_run(const RunContext& run, const std::vector<TieOfRank>& ties) {
                      system.settings(), requests, system.absent()),
                  {}};
   for (const BlockModel& block : whole.system.blocks()) whole.state.states.push_back(block.initial_state());
+  for (const auto& [pair, history] : run.state.pairs)
+    if (history.overlap > 0.0) whole.state.pairs[pair].overlap = history.overlap;
   whole.state.clock = run.state.clock;
   whole.state.remembers_statics = run.state.remembers_statics;
   whole.state.statics.level_start.resize(at(system.count()));

@@ -188,6 +188,7 @@ void forget_contacts_elsewhere(const BlockSystem& system, RunState& state) {
     sums.work = pair.work;
     sums.bonded = pair.bonded;
     sums.broken = pair.broken;
+    sums.overlap = pair.overlap;
     pair = std::move(sums);
   }
   std::erase_if(state.records,

@@ -65,7 +65,11 @@ void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, Simu
   for (std::size_t k = 0; k < whole.run.bolts.size(); ++k)
     if (part.run.bolts[k].installed()) whole.run.bolts[k] = part.run.bolts[k];
   whole.reactions.merge(part.reactions);
-  whole.run.pairs.merge(part.run.pairs);
+  for (auto& [blocks, pair] : part.run.pairs) {
+    // A rank with one of two blocks may know their overlap alone.
+    PairHistory& known = whole.run.pairs[blocks];
+    if (known.memory.empty() && known.work == 0.0) known = std::move(pair);
+  }
   whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
   std::vector<PairKey>& sliding = whole.run.statics.onset.sliding;
   const std::vector<PairKey>& others = part.run.statics.onset.sliding;
@@ -154,6 +158,7 @@ void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, St
     const std::vector<BlockSurface>& surfaces = finder.surfaces();
     for (const auto& [blocks, history] : whole.run.pairs) {
       const auto [a, b] = blocks;
+      if (history.overlap > 0.0) state.pairs[blocks].overlap = history.overlap;
       if (!system.here(a) || !system.here(b) || !(system.owns(a) || system.owns(b))) continue;
       PairHistory& pair = state.pairs[blocks] = history;
       if (pair.cache != nullptr)

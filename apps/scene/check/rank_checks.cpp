@@ -19,7 +19,6 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   refuse(analysis.formulation == SceneAnalysis::Formulation::incremental, "analysis.formulation",
          "the incremental formulation");
   refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
-  refuse(scene.contact.allowed_overlap > 0.0, "contact.allowed_overlap", "an initial overlap");
   refuse(!scene.stage.empty(), "stage.0", "a staged analysis");
 }
 
