@@ -22,6 +22,7 @@
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/agreement.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/ghost_models.hpp"
 #include "solver/step/rank_balance.hpp"
 #include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_snapshot.hpp"
@@ -54,13 +55,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
 Simulation::Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
                        const SimulationSettings& settings, const std::vector<TieRequest>& ties)
     : Simulation(std::move(blocks.shared), std::move(blocks.blocks), motions, std::move(law), settings, ties,
-                 {}) {
-  do_on_all(system_.share()->ranks(), [this] {
-    for (const BlockModel& block : system_.blocks()) {
-      if (block.incremental() != nullptr) refuse_ranks("incremental blocks");
-    }
-  });
-}
+                 {}) {}
 
 Simulation::Simulation(std::unique_ptr<SharedBlocks> shared, std::vector<BlockModel> blocks,
                        const std::vector<InitialMotion>& motions, LawOfPair law,
@@ -101,6 +96,7 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
   send_bolts_to_first(system_, state_);
   if (needs.all || !needs.pairs.empty()) told.contacts = contacts_of_run(*this, needs);
   if (needs.all || !needs.blocks.empty()) {
+    send_shapes_to_first(system_, needs.all ? nullptr : &needs.blocks);
     std::vector<BlockState> states = states_of_run(*this, needs);
     if (first) state_.states = std::move(states);
   }

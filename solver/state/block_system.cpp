@@ -56,7 +56,9 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   for (int k = 0; k < count(); ++k)
     if (moving_[at(k)] && blocks_[at(k)].quiet()) quiet_.push_back(k);
   // The surface of an incremental block consists of its sub-faces.
-  if (any_incremental()) settings_.curved_surface = false;
+  const bool incremental = any_incremental();
+  if (share_ == nullptr ? incremental : any_rank(share_->ranks(), incremental))
+    settings_.curved_surface = false;
   const bool any_rigid =
       std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.rigid(); });
   if (any_rigid && settings_.integrator == Integrator::generalized_alpha)

@@ -9,7 +9,7 @@
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
 #include "solver/bolts/bolted_blocks.hpp"
-#include "solver/step/quiet_release.hpp"
+#include "solver/step/ghost_models.hpp"
 #include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
@@ -24,7 +24,7 @@ struct MovedBlock {
   BlockRest rest;
   BlockTrack track;
   SurfaceDivision division;
-  Eigen::MatrixX3d reaction;  ///< released_reaction()
+  ModelChange change;
 };
 
 /// Message of a rank to a new owner.
@@ -105,7 +105,7 @@ std::vector<MovedPart> parts_to_send(const BlockSystem& system, const RunState& 
         {k, state.states[at(k)],
          state.accelerations.empty() ? Eigen::MatrixX3d() : state.accelerations[at(k)],
          state.spin_debts[at(k)], state.sleep.rests[at(k)], finder.tracks[at(k)], finder.divisions[at(k)],
-         released_reaction(system.blocks()[at(k)])});
+         change_of(system.blocks()[at(k)])});
   }
   // Ranks that have to know a pair which this one has made until now, if one of its blocks goes elsewhere.
   const auto receivers = [&](int a, int b) {
@@ -156,10 +156,9 @@ void take_blocks(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
     for (const MovedBlock& moved : part.blocks)
       system.set_here(moved.block, system.blocks()[at(moved.block)], true);
   BlockPartsLibrary library;
-  for (const MovedPart& part : parts)
-    for (const MovedBlock& moved : part.blocks)
-      if (system.blocks()[at(moved.block)].quiet())
-        set_reaction_of(system, state, caches, moved.block, moved.reaction, library);
+  for (MovedPart& part : parts)
+    for (MovedBlock& moved : part.blocks)
+      apply_change(system, state, caches, moved.block, std::move(moved.change), library);
   ContactFinder& finder = caches.contacts.finder();
   FinderState known = finder.state();
   for (MovedPart& part : parts) {

@@ -50,10 +50,12 @@ void keep_own(const BlockSystem& system, RunState& run) {
     if (!owns_bolt(system, k)) run.bolts[k] = {};
 }
 
-/// Removes reactions of blocks elsewhere.
+/// Removes changes of the models of other blocks.
 template <class Keeps>
-void keep_reactions(std::map<int, Eigen::MatrixX3d>& reactions, const Keeps& keeps) {
-  std::erase_if(reactions, [&](const auto& entry) { return !keeps(entry.first); });
+void keep_changes(SimulationSnapshot& snapshot, const Keeps& keeps) {
+  const auto is_other = [&](const auto& entry) { return !keeps(entry.first); };
+  std::erase_if(snapshot.reactions, is_other);
+  std::erase_if(snapshot.carried, is_other);
 }
 
 void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
@@ -65,6 +67,7 @@ void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, Simu
   for (std::size_t k = 0; k < whole.run.bolts.size(); ++k)
     if (part.run.bolts[k].installed()) whole.run.bolts[k] = part.run.bolts[k];
   whole.reactions.merge(part.reactions);
+  whole.carried.merge(part.carried);
   for (auto& [blocks, pair] : part.run.pairs) {
     // A rank with one of two blocks may know their overlap alone.
     PairHistory& known = whole.run.pairs[blocks];
@@ -97,7 +100,9 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
   for (int k = 0; k < system.count(); ++k)
     if (!system.here(k)) take_block(k, present, part);
   part.finder = finder_state_here(system, caches.contacts.finder(), whole, first);
-  keep_reactions(part.reactions, [&](int block) { return system.here(block); });
+  keep_changes(part, [&](int block) {
+    return system.here(block) || system.blocks()[at(block)].incremental() != nullptr;
+  });
   part.factors.clear();
   part.run.pairs.clear();
   part.run.records.clear();
@@ -119,7 +124,7 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
                                   const RunTotals* totals) {
   const BlockShare& share = *system.share();
   keep_own(system, part.run);
-  keep_reactions(part.reactions, [&](int block) { return system.owns(block); });
+  keep_changes(part, [&](int block) { return system.owns(block); });
   part.factors.clear();
   const double balance = sum_of_ranks(share.ranks(), part.run.ledger.start_balance());
   send_to_first(
@@ -146,7 +151,7 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
 
 void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                   const SimulationSnapshot& whole) {
-  if (whole.run.states.size() != at(system.count()) || !whole.carried.empty() || !whole.load_factors.empty())
+  if (whole.run.states.size() != at(system.count()) || !whole.load_factors.empty())
     throw std::invalid_argument("the snapshot has other blocks");
   const bool first = shared.share->ranks().own() == 0;
   do_on_all(shared.share->ranks(),

@@ -16,8 +16,6 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   const SceneAnalysis& analysis = scene.analysis;
   refuse(analysis.type != SceneAnalysis::Type::dynamic && analysis.type != SceneAnalysis::Type::statics,
          "analysis.type", "an analysis that is neither dynamic nor static");
-  refuse(analysis.formulation == SceneAnalysis::Formulation::incremental, "analysis.formulation",
-         "the incremental formulation");
   refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
   refuse(!scene.stage.empty(), "stage.0", "a staged analysis");
 }
