@@ -317,11 +317,10 @@ to = [2.5, 0.125, 0]
 stiffness = 1e6
 ''')
         scene.write_text(scene.read_text().replace("measure = [", 'measure = [{ name = "pin", bolt = "pin" }, { name = "tie", bolt = "tie" }, '))
-        self.expect_same_motion("leaning.toml", 0.05, [2, 4])
-        supports = [json.loads((self.folder / str(count) / "summary.json").read_text())["support"] for count in (1, 2, 4)]
+        self.expect_same_motion("leaning.toml", 0.03, [3])
+        supports = [json.loads((self.folder / str(count) / "summary.json").read_text())["support"] for count in (1, 3)]
         self.assertEqual(supports[0]["states"]["slipped"], 1)
-        for support in supports[1:]:
-            self.assertEqual(support["states"], supports[0]["states"])
+        self.assertEqual(supports[1]["states"], supports[0]["states"])
 
     def test_more_ranks_than_blocks(self):
         self.expect_same_motion("falling_block", 0.02, [4])
