@@ -268,6 +268,21 @@ TEST(SharedBolts, GoWithTheirBlocksToOtherRanks) {
   expect_same(one, end, 1e-9);
 }
 
+TEST(SharedBolts, BoltedBlocksOfTwoRanksSleepTogether) {
+  Bolted bolted = hanging(2, elastic(1e7));
+  bolted.scene.settings.contact_distance = 2e-3;
+  bolted.scene.settings.mass_damping = 20.0;
+  const auto rest = [](Simulation& simulation) { EXPECT_TRUE(advance(simulation, 1500)); };
+  const BoltedEnd end = on_ranks(bolted, {0, 1, 0}, 2, rest);
+  EXPECT_EQ(end.run.totals.counts.islands_put_to_sleep, 1U);
+  Simulation alone = bolted.alone();
+  rest(alone);
+  const BoltedEnd one = end_with_bolts(alone);
+  EXPECT_EQ(one.run.totals.counts.sleeping_block_steps, end.run.totals.counts.sleeping_block_steps);
+  EXPECT_NEAR(one.run.totals.ledger.contact, end.run.totals.ledger.contact,
+              1e-9 * one.run.totals.ledger.contact);
+}
+
 TEST(SharedBolts, MotionFromEquilibriumStaysAtRest) {
   const Bolted bolted = hanging(2, elastic(1e7));
   const BoltedEnd end = on_ranks(bolted, {0, 1, 0}, 2, [](Simulation& simulation) {
