@@ -5,20 +5,12 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/bolts/bolted_blocks.hpp"
 
 namespace ashlar {
 namespace {
 
 using Eigen::Index;
-
-std::vector<int> present_blocks(const BoltChain& chain) {
-  std::vector<int> blocks;
-  for (std::size_t k = 0; k < chain.shape().pieces().size(); ++k)
-    if (chain.present(k)) blocks.push_back(chain.shape().pieces()[k].block);
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  return blocks;
-}
 
 /// The points as placed, in blocks that are not deformed.
 BoltPlaces as_placed(const BoltShape& shape) {

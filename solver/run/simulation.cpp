@@ -22,7 +22,9 @@
 #include "solver/step/accepted_bolts.hpp"
 #include "solver/step/agreement.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/ghost_models.hpp"
 #include "solver/step/rank_balance.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_snapshot.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
@@ -53,14 +55,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
 Simulation::Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
                        const SimulationSettings& settings, const std::vector<TieRequest>& ties)
     : Simulation(std::move(blocks.shared), std::move(blocks.blocks), motions, std::move(law), settings, ties,
-                 {}) {
-  do_on_all(system_.share()->ranks(), [this] {
-    for (const BlockModel& block : system_.blocks()) {
-      if (block.incremental() != nullptr) refuse_ranks("incremental blocks");
-      if (block.quiet()) refuse_ranks("quiet boundaries");
-    }
-  });
-}
+                 {}) {}
 
 Simulation::Simulation(std::unique_ptr<SharedBlocks> shared, std::vector<BlockModel> blocks,
                        const std::vector<InitialMotion>& motions, LawOfPair law,
@@ -98,8 +93,10 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
   const TrafficOfResults traffic(*shared_);
   ToldResults told{totals_of_run(*this, shown), {}, {}};
   const bool first = system_.share()->ranks().own() == 0;
+  send_bolts_to_first(system_, state_);
   if (needs.all || !needs.pairs.empty()) told.contacts = contacts_of_run(*this, needs);
   if (needs.all || !needs.blocks.empty()) {
+    send_shapes_to_first(system_, needs.all ? nullptr : &needs.blocks);
     std::vector<BlockState> states = states_of_run(*this, needs);
     if (first) state_.states = std::move(states);
   }
@@ -151,7 +148,6 @@ void Simulation::refuse_late(const char* call) const {
 
 void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   refuse_late("start_overlapping");
-  if (!depths.empty()) refuse_ranks("initial overlaps");
   if (!state_.pairs.empty()) throw std::logic_error("initial overlaps are set before the initial stress");
   for (const auto& [blocks, depth] : depths) {
     if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
@@ -168,6 +164,9 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
     double& deepest = placed[{pair.a(), pair.b()}];
     for (const ContactPoint& point : pair.points()) deepest = std::max(deepest, point.overlap);
   }
+  if (shared_ != nullptr)
+    for (const auto& of_rank : values_of_ranks(system_.share()->ranks(), placed))
+      placed.insert(of_rank.begin(), of_rank.end());
   state_.pairs.clear();
   for (const auto& [blocks, deepest] : placed)
     if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;
@@ -184,9 +183,14 @@ std::optional<StressImbalance> Simulation::start_stressed() {
 
 void Simulation::add_bolts(std::vector<Bolt> bolts) {
   refuse_late("add_bolts");
-  if (!bolts.empty()) refuse_ranks("bolts and props");
   if (!system_.bolts().empty()) throw std::logic_error("all bolts of a run are added together");
-  system_.set_bolts(std::move(bolts));
+  const auto set = [&] { system_.set_bolts(std::move(bolts)); };
+  if (shared_ == nullptr) {
+    set();
+  } else {
+    do_on_all(system_.share()->ranks(), set);
+    find_ghosts(*shared_, system_, state_, caches_);
+  }
   state_.ledger.springs_hold(install_bolts(system_, state_));
   state_.ledger.start(system_, state_.states);
 }

@@ -56,7 +56,9 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   for (int k = 0; k < count(); ++k)
     if (moving_[at(k)] && blocks_[at(k)].quiet()) quiet_.push_back(k);
   // The surface of an incremental block consists of its sub-faces.
-  if (any_incremental()) settings_.curved_surface = false;
+  const bool incremental = any_incremental();
+  if (share_ == nullptr ? incremental : any_rank(share_->ranks(), incremental))
+    settings_.curved_surface = false;
   const bool any_rigid =
       std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.rigid(); });
   if (any_rigid && settings_.integrator == Integrator::generalized_alpha)
@@ -210,11 +212,14 @@ void BlockSystem::set_here(int block, BlockModel model, bool here) {
   moving_[at(block)] = this->here(block) && !blocks_[at(block)].fixed() && !loose_.contains(block);
   roundoff_force_[at(block)] = moving_[at(block)] ? blocks_[at(block)].force_rounding() : 0.0;
   note_gradients(at(block));
+  std::erase(quiet_, block);
+  if (this->here(block) && !blocks_[at(block)].fixed() && blocks_[at(block)].quiet())
+    quiet_.insert(std::lower_bound(quiet_.begin(), quiet_.end(), block), block);
   // The owner of a free body turns it. Blocks that change their owner are not tied.
   std::erase_if(free_bodies_, [block](const std::vector<int>& body) { return body.front() == block; });
   const BlockModel& now = blocks_[at(block)];
-  if (!present(block) || !owns(block) || now.fixed() || now.supported() || now.incremental() != nullptr)
-    return;
+  // Quiet faces hold a block as the run starts.
+  if (!present(block) || !owns(block) || !may_turn_freely(now) || now.quiet()) return;
   const auto place = std::find_if(free_bodies_.begin(), free_bodies_.end(),
                                   [block](const std::vector<int>& body) { return body.front() > block; });
   free_bodies_.insert(place, {block});

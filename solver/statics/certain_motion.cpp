@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "geometry/index.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 #include "solver/step/agreement.hpp"
+#include "solver/step/shared_bolts.hpp"
+#include "solver/step/shared_island.hpp"
 
 namespace ashlar {
 namespace {
@@ -37,10 +40,7 @@ class MotionExtrapolation {
       displacements_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
       goes_[k] = system.owns(static_cast<int>(k)) && !held[k] && residual_is_constant(k);
     }
-    // A slack bolt may become taut on the way.
-    for (const Island& island : problem.islands)
-      if (!island.bolts.empty())
-        for (const int block : island.bodies) goes_[at(block)] = false;
+    exclude_bolted();
     if (system.share() != nullptr && any_of_run(system, any())) goes_ = any_of_run(system, goes_);
     stopped_.assign(goes_.size(), false);
   }
@@ -96,6 +96,26 @@ class MotionExtrapolation {
   }
 
  private:
+  /// A slack bolt may become taut on the way: blocks of islands with bolts do not go.
+  void exclude_bolted() {
+    if (system_.bolts().empty()) return;
+    std::map<int, int> first;  // of the joined island
+    if (problem_.shared >= 0)
+      first = first_blocks(system_, problem_.islands[at(problem_.shared)], problem_.pairs);
+    const auto name_of = [&](std::size_t island, int block) {
+      return static_cast<int>(island) == problem_.shared ? first.at(block)
+                                                         : problem_.islands[island].bodies.front();
+    };
+    std::vector<bool> bolted(goes_.size(), false);  // by name of an island
+    for (std::size_t n = 0; n < problem_.islands.size(); ++n)
+      for (const StepBolt* bolt : problem_.islands[n].bolts)
+        bolted[at(name_of(n, moving_block(system_, *bolt)))] = true;
+    bolted = any_of_run(system_, bolted);
+    for (std::size_t n = 0; n < problem_.islands.size(); ++n)
+      for (const int block : problem_.islands[n].bodies)
+        if (bolted[at(name_of(n, block))]) goes_[at(block)] = false;
+  }
+
   [[nodiscard]] bool goes(int block) const { return goes_[at(block)]; }
   void exclude(const PairKey& pair) {
     for (const int block : pair) {

@@ -7,6 +7,7 @@
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
 #include "solver/step/agreement.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_island.hpp"
 
 namespace ashlar {
@@ -25,8 +26,7 @@ bool is_support(const BlockModel& block) {
 /// Of blocks of this rank, by the lowest of them on all ranks. With ranks collective.
 std::map<int, TouchingBlocks> touching_blocks(const BlockSystem& system, const RunState& state,
                                               const std::vector<ContactPair>& pairs) {
-  const std::vector<StepBolt> bolts =
-      step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
+  const std::vector<StepBolt> bolts = bolts_of_step(system, state);
   std::vector<Island> islands = find_islands(system.moving(), pairs, bolts);
   const int shared = system.share() == nullptr ? -1 : join_shared_islands(system, islands);
   std::map<int, int> first;
@@ -49,7 +49,7 @@ std::map<int, TouchingBlocks> touching_blocks(const BlockSystem& system, const R
     }
     for (const StepBolt* bolt : island.bolts)
       for (const int block : bolt->blocks())
-        if (is_support(system.blocks()[at(block)])) set_of(island.bodies.front()).held = true;
+        if (is_support(system.blocks()[at(block)])) set_of(moving_block(system, *bolt)).held = true;
   }
   return touching;
 }

@@ -1,5 +1,6 @@
 #include "solver/statics/shared_verdict.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,8 @@ WholeRun whole_run(const RunContext& run, const std::vector<TieOfRank>& ties) {
                      system.settings(), requests, system.absent()),
                  {}};
   for (const BlockModel& block : whole.system.blocks()) whole.state.states.push_back(block.initial_state());
+  for (const auto& [pair, history] : run.state.pairs)
+    if (history.overlap > 0.0) whole.state.pairs[pair].overlap = history.overlap;
   whole.state.clock = run.state.clock;
   whole.state.remembers_statics = run.state.remembers_statics;
   whole.state.statics.level_start.resize(at(system.count()));
@@ -92,6 +95,10 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
   const BlockSystem& system = run.system;
   const BlockShare& share = *system.share();
   Ranks& ranks = share.ranks();
+  // The verdict has no bolts. All ranks know which are installed.
+  const std::vector<BoltState>& bolts = run.state.bolts;
+  if (std::any_of(bolts.begin(), bolts.end(), [](const BoltState& bolt) { return bolt.installed(); }))
+    return status;
   std::vector<TieOfRank> ties;
   for (const TiedBlocks& tie : system.ties())
     if (system.owns_pair(tie.a, tie.b)) ties.push_back({tie.a, tie.b, tie.stiffness});

@@ -4,7 +4,9 @@
 #include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/step/accepted_bolts.hpp"
+#include "solver/step/agreement.hpp"
 #include "solver/step/ghosts.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_snapshot.hpp"
 #include "solver/step/snapshot.hpp"
 
@@ -39,7 +41,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   }
   for (auto& [blocks, pair] : state.pairs) pair.work = 0.0;
   commit_bolts(state);
-  for (const BoltState& bolt : state.bolts) in_springs += bolt.stored;
+  for (std::size_t k = 0; k < state.bolts.size(); ++k)
+    if (owns_bolt(system, k)) in_springs += state.bolts[k].stored;
   in_springs += energy_of_ties(system, state, run.caches.contacts);
   state.log.rejections.clear();
   state.steps = 0;
@@ -53,8 +56,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
 
 double energy_of_ties(const BlockSystem& system, RunState& state, StepContacts& contacts) {
   double sum = 0.0;
-  // A rank may have no ties, but take part in the exchange of pairs.
-  if (system.left_out().empty()) return sum;
+  // Collective: a rank may have no ties of a run that has some.
+  if (!any_of_run(system, !system.ties().empty())) return sum;
   for (const ContactPair& pair : contacts.pairs(system, state, {}, PairUse::statics))
     if (pair.tied() && system.owns_pair(pair.a(), pair.b())) sum += pair.start_energy();
   return sum;

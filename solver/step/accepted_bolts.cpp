@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "geometry/index.hpp"
+#include "solver/step/agreement.hpp"
+#include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
 namespace {
@@ -21,7 +23,7 @@ std::optional<double> rupture(const Bolt& bolt, BoltState& state, const Eigen::V
 }  // namespace
 
 BoltEnergies take_over_bolts(const BlockSystem& system, RunState& state, const StepProblem& problem) {
-  BoltEnergies sum;
+  BoltEnergies sum, elsewhere;
   const bool is_static = problem.scheme.is_static();
   LedgerKeeper& ledger = state.ledger;
   double found = 0.0;
@@ -31,24 +33,26 @@ BoltEnergies take_over_bolts(const BlockSystem& system, RunState& state, const S
       const BoltResult& one = result.bolts[n];
       const StepBolt& bolt = *problem.islands[i].bolts[n];
       BoltState& kept = state.bolts[at(bolt.index())];
-      found += bolt.start_energy() - kept.stored;
+      const bool owned = owns_bolt(system, at(bolt.index()));
+      BoltEnergies& booked = owned ? sum : elsewhere;
+      if (owned) found += bolt.start_energy() - kept.stored;
       const double dissipated_before = is_static ? kept.dissipated : 0.0;
       kept.reached = bolt.bolt().chain.memory_after(one.response.end, bolt.memory());
       take_forces(one.response.end, kept);
-      sum.work += one.work;
-      sum.dissipated += kept.dissipated - dissipated_before;
-      sum.gained += kept.stored - bolt.start_energy();
-      ledger.loads_did(-one.prescribed_work);
+      booked.work += one.work;
+      booked.dissipated += kept.dissipated - dissipated_before;
+      booked.gained += kept.stored - bolt.start_energy();
+      if (owned) ledger.loads_did(-one.prescribed_work);
       if (!is_static) {
         kept.memory = kept.reached;
         kept.dissipated = 0.0;
         if (const auto released =
                 rupture(system.bolts()[at(bolt.index())], kept, one.response.deformation, one.response.end)) {
-          sum.gained -= *released;
-          sum.dissipated += *released;
+          booked.gained -= *released;
+          booked.dissipated += *released;
         }
       }
-      sum.held += kept.stored;
+      booked.held += kept.stored;
     }
   }
   if (found != 0.0) ledger.found_anew(found);
@@ -68,19 +72,20 @@ bool rupture_bolts(const BlockSystem& system, RunState& state) {
     BoltState& one = state.bolts[k];
     const Bolt& bolt = system.bolts()[k];
     if (!one.installed() || bolt.chain.law().rupture_strain == BoltLaw::unlimited) continue;
+    if (!knows_bolt(system, k)) continue;
     const Eigen::VectorXd deformation = deformation_in(bolt, system.blocks(), state.states);
     const BoltResponse response = bolt.chain.respond(deformation, one.memory, false);
     const std::optional<double> released = rupture(bolt, one, deformation, response);
     if (!released) continue;
     any = true;
+    if (!owns_bolt(system, k)) continue;
     state.ledger.sliding_took(*released);
     state.ledger.springs_hold(state.ledger.ledger().contact - *released);
   }
-  return any;
+  return any_of_run(system, any);
 }
 
 double install_bolts(const BlockSystem& system, RunState& state) {
-  double stored = 0.0;
   state.bolts.resize(system.bolts().size());
   for (std::size_t k = 0; k < system.bolts().size(); ++k) {
     const Bolt& bolt = system.bolts()[k];
@@ -89,13 +94,16 @@ double install_bolts(const BlockSystem& system, RunState& state) {
       one = BoltState{};
       continue;
     }
-    if (!one.installed()) {
+    if (!one.installed() && knows_bolt(system, k)) {
       const Eigen::VectorXd deformation = deformation_in(bolt, system.blocks(), state.states);
       one.memory = one.reached = bolt.chain.installed_at(deformation);
       take_forces(bolt.chain.respond(deformation, one.memory, false), one);
     }
-    stored += one.stored;
   }
+  tell_bolts(system, state);
+  double stored = 0.0;
+  for (std::size_t k = 0; k < state.bolts.size(); ++k)
+    if (owns_bolt(system, k)) stored += state.bolts[k].stored;
   return stored;
 }
 

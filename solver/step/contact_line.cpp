@@ -1,7 +1,9 @@
 #include "solver/step/contact_line.hpp"
 
+#include <algorithm>
 #include <numeric>
 
+#include "geometry/index.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -23,6 +25,12 @@ ContactLine::ContactLine(const IslandProblem& problem, const Eigen::VectorXd& ch
   }
 }
 
+bool ContactLine::owns_bolt(std::size_t k) const {
+  const std::vector<int>& places = problem_.bolts().places(k);
+  const auto body = std::find_if(places.begin(), places.end(), [](int place) { return place >= 0; });
+  return body != places.end() && problem_.ranks().owns_body(at(*body));
+}
+
 double ContactLine::work(double share) const {
   const bool averaged = problem_.scheme().mean_contacts;
   std::vector<double> by_pair(lines_.size(), 0.0);
@@ -38,9 +46,11 @@ double ContactLine::work(double share) const {
     }
   });
   double of_bolts = 0.0;
-  for (std::size_t k = 0; k < bolts_.size(); ++k)
+  for (std::size_t k = 0; k < bolts_.size(); ++k) {
+    if (!owns_bolt(k)) continue;
     of_bolts -=
         problem_.bolts().bolt(k).force(bolts_[k].start + share * bolts_[k].way, averaged).dot(bolts_[k].way);
+  }
   return problem_.ranks().sum(std::accumulate(by_pair.begin(), by_pair.end(), of_bolts));
 }
 

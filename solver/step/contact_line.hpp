@@ -31,6 +31,9 @@ class ContactLine {
     Eigen::VectorXd way;
   };
 
+  /// True on one of the ranks that share the island: each bolt counts once.
+  [[nodiscard]] bool owns_bolt(std::size_t k) const;
+
   const IslandProblem& problem_;
   std::vector<PairLine> lines_;  ///< by pair
   std::vector<BoltLine> bolts_;  ///< by bolt

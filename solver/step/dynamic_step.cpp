@@ -156,7 +156,7 @@ class DynamicStep {
 
   /// True if the step may end in its state; otherwise the step has been cut.
   bool can_end() {
-    if (!carry_blocks(system_, state_, problem_)) {
+    if (any_of_run(system_, !carry_blocks(system_, state_, problem_))) {
       reject(state_, step_, RejectionReason::no_shape);
       cut(0.5);
       return false;

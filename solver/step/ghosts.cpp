@@ -12,6 +12,8 @@
 #include "geometry/solid/face_axes.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/step/ghost_models.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/step_problem.hpp"
 
@@ -210,6 +212,7 @@ void change_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, S
     set_block_here(system, state, caches, block, shared.keeps_models ? known(block) : placeholder(), false);
   for (std::size_t k = 0; k < come.size(); ++k)
     set_block_here(system, state, caches, come[k], std::move(models[k]), true);
+  update_ghost_models(system, state, caches);
   hold_sleepers(system, state.sleep);
   caches.contacts.forget_border_pairs();
 }
@@ -230,8 +233,8 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
                      system.blocks()[at(k)].fixed()});
   }
   const double reach = max_of_ranks(share.ranks(), reach_of(system.settings(), state));
-  change_ghosts(shared, system, state, caches,
-                with_tied(shared, ghosts_of(share, boxes, reach + 2.0 * shared.margin)));
+  const std::vector<int> near = ghosts_of(share, boxes, reach + 2.0 * shared.margin);
+  change_ghosts(shared, system, state, caches, with_bolted(system, with_tied(shared, near)));
   update_ghosts(system, state);
   update_ghost_contacts(system, state);
   for (int k = 0; k < system.count(); ++k) shared.paths[at(k)] = finder.path(k);

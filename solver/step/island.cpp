@@ -1,11 +1,11 @@
 #include "solver/step/island.hpp"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 #include "geometry/index.hpp"
 #include "geometry/union_find.hpp"
+#include "solver/step/island_links.hpp"
 #include "solver/step/open_close.hpp"
 
 namespace ashlar {
@@ -199,29 +199,8 @@ IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep
     sizes.push_back(bodies[at(body)].model->freedom());
     key.push_back(body);
   }
-  std::vector<std::array<int, 2>> links;
-  for (const int pair : island.pairs) {
-    const auto a = place.find(pairs[at(pair)].a());
-    const auto b = place.find(pairs[at(pair)].b());
-    if (a == place.end() || b == place.end()) continue;
-    links.push_back({a->second, b->second});
-    key.insert(key.end(), {a->second, b->second});
-  }
-  if (!island.bolts.empty()) {
-    std::set<std::array<int, 2>> known(links.begin(), links.end());
-    for (const StepBolt* bolt : island.bolts) {
-      std::vector<int> ends;  // increasing, as the blocks are
-      for (const int block : bolt->blocks())
-        if (const auto end = place.find(block); end != place.end()) ends.push_back(end->second);
-      for (std::size_t i = 0; i < ends.size(); ++i) {
-        for (std::size_t j = i + 1; j < ends.size(); ++j) {
-          if (!known.insert({ends[i], ends[j]}).second) continue;
-          links.push_back({ends[i], ends[j]});
-          key.insert(key.end(), {ends[i], ends[j]});
-        }
-      }
-    }
-  }
+  const std::vector<std::array<int, 2>> links = links_of(island, pairs, place);
+  for (const std::array<int, 2>& link : links) key.insert(key.end(), link.begin(), link.end());
   return solvers.find(key, sizes, links);
 }
 

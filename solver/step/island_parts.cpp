@@ -6,6 +6,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/ranks/block_share.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_island.hpp"
 
 namespace ashlar {
@@ -49,7 +50,7 @@ void add_parts(const BlockSystem& system, const Island& island, const std::map<i
   }
   for (const StepBolt* bolt : island.bolts)
     for (const int block : bolt->blocks())
-      if (!system.moving()[at(block)]) part_of(island.bodies.front()).free = false;
+      if (!system.moving()[at(block)]) part_of(moving_block(system, *bolt)).free = false;
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "geometry/index.hpp"
+#include "solver/step/agreement.hpp"
 #include "solver/step/block_changes.hpp"
+#include "solver/step/ghost_models.hpp"
 #include "solver/step/island_equations.hpp"
 #include "solver/step/step_problem.hpp"
 
@@ -72,14 +74,17 @@ void release_quiet_faces(BlockSystem& system, RunState& state, StepCaches& cache
     released.push_back({k, block.parts(), external_force(system, state.clock, k, at_rest())});
     replace_model(system, state, caches, k, block.with_quiet_faces(true, library));
   }
-  if (released.empty()) return;
+  if (!any_of_run(system, !released.empty())) return;
   const std::vector<Eigen::VectorXd> forces = residuals(system, state, caches, released);
   for (std::size_t n = 0; n < released.size(); ++n) {
+    // Forces on ghosts are not complete.
+    if (!system.owns(released[n].block)) continue;
     const BlockModel& block = system.blocks()[at(released[n].block)];
     const AdmissibleSpace& held = released[n].held->space;
     const Eigen::MatrixX3d missing = -block.space().expand(forces[n]);
     system.set_reaction(released[n].block, missing - held.expand(held.restrict(missing)));
   }
+  if (system.share() != nullptr) update_ghost_models(system, state, caches);
 }
 
 void hold_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches) {
@@ -91,11 +96,22 @@ void set_reactions(BlockSystem& system, RunState& state, StepCaches& caches,
   BlockPartsLibrary library;
   for (const int k : system.quiet()) {
     const auto reaction = reactions.find(k);
-    const bool releases = reaction != reactions.end();
-    if (system.blocks()[at(k)].holds_quiet_faces() == releases)
-      replace_model(system, state, caches, k, system.blocks()[at(k)].with_quiet_faces(releases, library));
-    if (releases) system.set_reaction(k, reaction->second);
+    set_reaction_of(system, state, caches, k,
+                    reaction == reactions.end() ? Eigen::MatrixX3d() : reaction->second, library);
   }
+}
+
+Eigen::MatrixX3d released_reaction(const BlockModel& block) {
+  return block.quiet() && !block.holds_quiet_faces() ? block.reaction() : Eigen::MatrixX3d();
+}
+
+void set_reaction_of(BlockSystem& system, RunState& state, StepCaches& caches, int block,
+                     const Eigen::MatrixX3d& reaction, BlockPartsLibrary& library) {
+  const BlockModel& model = system.blocks()[at(block)];
+  const bool releases = reaction.rows() > 0;
+  if (model.holds_quiet_faces() == releases)
+    replace_model(system, state, caches, block, model.with_quiet_faces(releases, library));
+  if (releases) system.set_reaction(block, reaction);
 }
 
 }  // namespace ashlar

@@ -12,10 +12,17 @@
 
 namespace ashlar {
 
-/// Releases quiet faces that are held. No effect without any.
+/// Releases quiet faces that are held. No effect without any. With several ranks collective.
 void release_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches);
 /// Holds quiet faces that are released at their present places; their reactions are dropped.
 void hold_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches);
+
+/// Force behind the quiet faces of a block, (p, 3); empty: they are held, or there are none.
+[[nodiscard]] Eigen::MatrixX3d released_reaction(const BlockModel& block);
+/// Releases the quiet faces of a block with a reaction, or holds them. @param block with quiet faces
+/// @param reaction as released_reaction(). @param library of the parts of released or held blocks
+void set_reaction_of(BlockSystem& system, RunState& state, StepCaches& caches, int block,
+                     const Eigen::MatrixX3d& reaction, BlockPartsLibrary& library);
 
 /// Releases the quiet faces of these blocks, with these reactions, and holds those of all others.
 /// @param reactions (p, 3) by block, of blocks with quiet faces

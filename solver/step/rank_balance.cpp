@@ -8,6 +8,9 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/bolts/bolted_blocks.hpp"
+#include "solver/step/ghost_models.hpp"
+#include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
 namespace {
@@ -21,6 +24,7 @@ struct MovedBlock {
   BlockRest rest;
   BlockTrack track;
   SurfaceDivision division;
+  ModelChange change;
 };
 
 /// Message of a rank to a new owner.
@@ -45,6 +49,13 @@ std::vector<PartitionBlock> blocks_of_rank(const BlockSystem& system, const RunS
       all[one] += count;
       if (moves(other)) points[one][other] = count;
     }
+  }
+  for (std::size_t n = 0; n < system.bolts().size(); ++n) {
+    if (!state.bolts[n].installed()) continue;
+    const std::vector<int> bolted = present_blocks(system.bolts()[n].chain);
+    for (const int one : bolted)
+      for (const int other : bolted)
+        if (one != other && share.owns(one) && moves(one) && moves(other)) ++points[one][other];
   }
   std::vector<PartitionBlock> own;
   for (const int k : share.own()) {
@@ -93,7 +104,8 @@ std::vector<MovedPart> parts_to_send(const BlockSystem& system, const RunState& 
     parts[at(owners[at(k)])].blocks.push_back(
         {k, state.states[at(k)],
          state.accelerations.empty() ? Eigen::MatrixX3d() : state.accelerations[at(k)],
-         state.spin_debts[at(k)], state.sleep.rests[at(k)], finder.tracks[at(k)], finder.divisions[at(k)]});
+         state.spin_debts[at(k)], state.sleep.rests[at(k)], finder.tracks[at(k)], finder.divisions[at(k)],
+         change_of(system.blocks()[at(k)])});
   }
   // Ranks that have to know a pair which this one has made until now, if one of its blocks goes elsewhere.
   const auto receivers = [&](int a, int b) {
@@ -143,6 +155,10 @@ void take_blocks(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
   for (const MovedPart& part : parts)
     for (const MovedBlock& moved : part.blocks)
       system.set_here(moved.block, system.blocks()[at(moved.block)], true);
+  BlockPartsLibrary library;
+  for (MovedPart& part : parts)
+    for (MovedBlock& moved : part.blocks)
+      apply_change(system, state, caches, moved.block, std::move(moved.change), library);
   ContactFinder& finder = caches.contacts.finder();
   FinderState known = finder.state();
   for (MovedPart& part : parts) {
@@ -171,6 +187,7 @@ void forget_contacts_elsewhere(const BlockSystem& system, RunState& state) {
     sums.work = pair.work;
     sums.bonded = pair.bonded;
     sums.broken = pair.broken;
+    sums.overlap = pair.overlap;
     pair = std::move(sums);
   }
   std::erase_if(state.records,
@@ -232,6 +249,7 @@ bool balance_ranks(SharedBlocks& shared, BlockSystem& system, RunState& state, S
 void change_owners(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                    std::vector<int> owners) {
   ContactFinder& finder = caches.contacts.finder();
+  tell_bolts(system, state);
   std::vector<MovedPart> parts =
       exchanged(shared.share->ranks(), parts_to_send(system, state, finder.state(), owners));
   const std::vector<int> before = shared.share->own();

@@ -8,7 +8,9 @@
 #include "geometry/index.hpp"
 #include "geometry/union_find.hpp"
 #include "mechanics/block/rigid_body.hpp"
+#include "solver/step/island_links.hpp"
 #include "solver/step/open_close.hpp"
+#include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
 namespace {
@@ -141,12 +143,15 @@ int join_shared_islands(const BlockSystem& system, std::vector<Island>& islands)
     } else if (ghosts < static_cast<std::ptrdiff_t>(island.bodies.size())) {
       joined.bodies.insert(joined.bodies.end(), island.bodies.begin(), island.bodies.end());
       joined.pairs.insert(joined.pairs.end(), island.pairs.begin(), island.pairs.end());
+      joined.bolts.insert(joined.bolts.end(), island.bolts.begin(), island.bolts.end());
     }
   }
   islands = std::move(others);
   if (!any_rank(share.ranks(), !joined.bodies.empty())) return -1;
   std::sort(joined.bodies.begin(), joined.bodies.end());
   std::sort(joined.pairs.begin(), joined.pairs.end());
+  std::sort(joined.bolts.begin(), joined.bolts.end(),
+            [](const StepBolt* x, const StepBolt* y) { return x->index() < y->index(); });
   islands.push_back(std::move(joined));
   return static_cast<int>(islands.size()) - 1;
 }
@@ -159,6 +164,9 @@ std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
     const ContactPair& pair = pairs[at(index)];
     if (system.moving()[at(pair.a())] && system.moving()[at(pair.b())]) touching.unite(pair.a(), pair.b());
   }
+  for (const StepBolt* bolt : island.bolts)
+    for (const int block : bolt->blocks())
+      if (system.moving()[at(block)]) touching.unite(moving_block(system, *bolt), block);
   std::map<int, Eigen::VectorXd> lowest;  // by root
   for (const int block : island.bodies)
     lowest.try_emplace(touching.find(block), Eigen::VectorXd::Constant(1, block));
@@ -199,15 +207,10 @@ SharedIslandSystem::SharedIslandSystem(const BlockSystem& system, const Island& 
     own.bodies.push_back(body);
     own.sizes.push_back(sizes.back());
   }
-  std::vector<std::array<int, 2>> links;
   std::vector<bool> owns_pair;
-  for (const int index : island.pairs) {
-    const ContactPair& pair = pairs[at(index)];
-    owns_pair.push_back(system.owns_pair(pair.a(), pair.b()));
-    const auto a = place.find(pair.a());
-    const auto b = place.find(pair.b());
-    if (a != place.end() && b != place.end()) links.push_back({a->second, b->second});
-  }
+  for (const int index : island.pairs)
+    owns_pair.push_back(system.owns_pair(pairs[at(index)].a(), pairs[at(index)].b()));
+  const std::vector<std::array<int, 2>> links = links_of(island, pairs, place);
   ranks_ = std::make_unique<const IslandRanks>(share, island.bodies, starts, std::move(owns_pair));
   RankSolver& solver = kept_ == nullptr ? share.solver() : share.step_solver();
   solver_ = std::make_unique<IslandSolvers::Entry>(

@@ -19,7 +19,7 @@ namespace ashlar {
 /// Collective
 [[nodiscard]] int join_shared_islands(const BlockSystem& system, std::vector<Island>& islands);
 
-/// Lowest block of the set of touching bodies that each body of the joined island belongs to, by body. Collective.
+/// Lowest block of the set of touching or bolted bodies that each body of the joined island belongs to, by body. Collective.
 [[nodiscard]] std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
                                               const std::vector<ContactPair>& pairs);
 

@@ -7,6 +7,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/step/shared_bolts.hpp"
 
 namespace ashlar {
 namespace {
@@ -49,13 +50,23 @@ std::vector<bool> fixed_blocks(const BlockSystem& system) {
   return fixed;
 }
 
-/// Removes pairs that other ranks tell.
-void keep_own_pairs(const BlockSystem& system, RunState& run) {
+/// Removes pairs and bolts that other ranks tell.
+void keep_own(const BlockSystem& system, RunState& run) {
   std::erase_if(run.pairs,
                 [&](const auto& entry) { return !system.owns_pair(entry.first[0], entry.first[1]); });
   std::erase_if(run.records, [&](const PairRecord& record) { return !system.owns_pair(record.a, record.b); });
   std::erase_if(run.statics.onset.sliding,
                 [&](const PairKey& pair) { return !system.owns_pair(pair[0], pair[1]); });
+  for (std::size_t k = 0; k < run.bolts.size(); ++k)
+    if (!owns_bolt(system, k)) run.bolts[k] = {};
+}
+
+/// Removes changes of the models of other blocks.
+template <class Keeps>
+void keep_changes(SimulationSnapshot& snapshot, const Keeps& keeps) {
+  const auto is_other = [&](const auto& entry) { return !keeps(entry.first); };
+  std::erase_if(snapshot.reactions, is_other);
+  std::erase_if(snapshot.carried, is_other);
 }
 
 void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
@@ -64,7 +75,15 @@ void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, Simu
   // All ranks list the same islands, each with the energy that it holds.
   for (std::size_t k = 0; k < whole.run.sleep.islands.size(); ++k)
     whole.run.sleep.islands[k].held += part.run.sleep.islands.at(k).held;
-  whole.run.pairs.merge(part.run.pairs);
+  for (std::size_t k = 0; k < whole.run.bolts.size(); ++k)
+    if (part.run.bolts[k].installed()) whole.run.bolts[k] = part.run.bolts[k];
+  whole.reactions.merge(part.reactions);
+  whole.carried.merge(part.carried);
+  for (auto& [blocks, pair] : part.run.pairs) {
+    // A rank with one of two blocks may know their overlap alone.
+    PairHistory& known = whole.run.pairs[blocks];
+    if (known.memory.empty() && known.work == 0.0) known = std::move(pair);
+  }
   whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
   std::vector<PairKey>& sliding = whole.run.statics.onset.sliding;
   const std::vector<PairKey>& others = part.run.statics.onset.sliding;
@@ -92,6 +111,9 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
   for (int k = 0; k < system.count(); ++k)
     if (!system.here(k)) take_block(k, present, part);
   part.finder = finder_state_here(system, caches.contacts.finder(), whole, first);
+  keep_changes(part, [&](int block) {
+    return system.here(block) || system.blocks()[at(block)].incremental() != nullptr;
+  });
   part.factors.clear();
   part.run.pairs.clear();
   part.run.records.clear();
@@ -112,7 +134,8 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
 SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
                                   const RunTotals* totals) {
   const BlockShare& share = *system.share();
-  keep_own_pairs(system, part.run);
+  keep_own(system, part.run);
+  keep_changes(part, [&](int block) { return system.owns(block); });
   part.factors.clear();
   const double balance = sum_of_ranks(share.ranks(), part.run.ledger.start_balance());
   send_to_first(
@@ -142,21 +165,24 @@ void take_histories(const BlockSystem& system, const PairHistories& whole,
   const std::vector<bool> fixed = fixed_blocks(system);
   for (const auto& [blocks, history] : whole) {
     const auto [a, b] = blocks;
-    if (!system.owns(a) && !system.owns(b)) continue;
-    if (system.here(a) && system.here(b)) {
+    const bool concerned = system.owns(a) || system.owns(b);
+    if (concerned && system.here(a) && system.here(b)) {
       keep(blocks, history);
-    } else if (system.owns(fixed[at(a)] ? b : a)) {
+    } else if (concerned && system.owns(fixed[at(a)] ? b : a)) {
       PairHistory sums = history;
       forget_contacts(sums);
       keep(blocks, std::move(sums));
+    } else if (history.overlap > 0.0) {
+      PairHistory known;
+      known.overlap = history.overlap;
+      keep(blocks, std::move(known));
     }
   }
 }
 
 void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                   const SimulationSnapshot& whole) {
-  if (whole.run.states.size() != at(system.count()) || !whole.carried.empty() || !whole.reactions.empty() ||
-      !whole.load_factors.empty())
+  if (whole.run.states.size() != at(system.count()) || !whole.load_factors.empty())
     throw std::invalid_argument("the snapshot has other blocks");
   const bool first = shared.share->ranks().own() == 0;
   do_on_all(shared.share->ranks(),
@@ -164,13 +190,19 @@ void restore_part(SharedBlocks& shared, BlockSystem& system, RunState& state, St
   find_ghosts(shared, system, state, caches);
   ContactFinder& finder = caches.contacts.finder();
   finder.restore(finder_state_here(system, finder, whole, first));
-  const std::vector<BlockSurface>& surfaces = finder.surfaces();
-  take_histories(system, whole.run.pairs, [&](const PairKey& blocks, PairHistory history) {
-    const auto [a, b] = blocks;
-    PairHistory& pair = state.pairs[blocks] = std::move(history);
-    if (pair.cache != nullptr)
-      pair.cache = with_rows(*pair.cache, system.blocks()[at(a)], system.blocks()[at(b)], surfaces[at(a)],
-                             surfaces[at(b)]);
+  std::vector<std::pair<PairKey, PairHistory>> here;
+  take_histories(system, whole.run.pairs, [&here](const PairKey& blocks, PairHistory history) {
+    here.emplace_back(blocks, std::move(history));
+  });
+  do_on_all(shared.share->ranks(), [&] {
+    const std::vector<BlockSurface>& surfaces = finder.surfaces();
+    for (auto& [blocks, history] : here) {
+      const auto [a, b] = blocks;
+      PairHistory& pair = state.pairs[blocks] = std::move(history);
+      if (pair.cache != nullptr)
+        pair.cache = with_rows(*pair.cache, system.blocks()[at(a)], system.blocks()[at(b)], surfaces[at(a)],
+                               surfaces[at(b)]);
+    }
   });
   update_ghost_contacts(system, state);
   for (const PairRecord& record : whole.run.records)

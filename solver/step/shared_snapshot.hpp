@@ -17,7 +17,7 @@ namespace ashlar {
                                                 const RunTotals* totals);
 
 /// What this rank needs of the histories of all pairs: whole ones of pairs of an own block and one that is here; of other
-/// pairs that it makes the sums only, as if the other block had gone away. Collective.
+/// pairs that it makes the sums only, as if the other block had gone away. All ranks know initial overlaps. Collective.
 /// @param whole of the run, the same on all ranks. @param keep called for each pair, with the history without what it has
 /// found (forget_contacts) unless both blocks are here
 void take_histories(const BlockSystem& system, const PairHistories& whole,

@@ -8,6 +8,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/step/agreement.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_island.hpp"
 
 namespace ashlar {
@@ -112,8 +113,11 @@ std::map<int, RestingPart> parts_of(const BlockSystem& system, const StepProblem
       part_of(system.moving()[at(pair.a())] ? pair.a() : pair.b()).held +=
           ContactPair::energies(problem.results[k].responses[n]).total();
     }
-    for (const BoltResult& bolt : problem.results[k].bolts)
-      parts[island.bodies.front()].held += bolt.response.end.stored;
+    for (std::size_t n = 0; n < island.bolts.size(); ++n) {
+      const StepBolt& bolt = *island.bolts[n];
+      if (owns_bolt(system, at(bolt.index())))
+        part_of(moving_block(system, bolt)).held += problem.results[k].bolts[n].response.end.stored;
+    }
   }
   return parts;
 }

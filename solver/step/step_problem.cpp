@@ -6,6 +6,7 @@
 #include "geometry/index.hpp"
 #include "solver/parallel_for.hpp"
 #include "solver/ranks/block_share.hpp"
+#include "solver/step/shared_bolts.hpp"
 #include "solver/step/shared_island.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -108,7 +109,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
 void pose_step(const BlockSystem& system, const RunState& state, const TimeScheme& scheme,
                StepProblem& problem) {
   problem.scheme = scheme;
-  problem.bolts = step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
+  problem.bolts = bolts_of_step(system, state);
   problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
   validate(problem.islands, system.moving(), problem.pairs);
   problem.shared = system.share() == nullptr ? -1 : join_shared_islands(system, problem.islands);

@@ -373,6 +373,38 @@ add = ["late*"]
         self.assertIn("adds block late2 where block stone2 is now: they overlap by 0.52 m", told[0][0])
         self.assertEqual(told[1], told[0])
 
+    def test_bolts_and_props_hold_alike_on_many_ranks(self):
+        """A bolt down a wall whose grout slips, a tie rod from end to end and a strut."""
+        scene = self.write_leaning_wall()
+        with open(scene, "a", encoding="utf-8") as file:
+            file.write('''
+[[bolt]]
+name = "pin"
+from = [0.3, 0.125, 0.6]
+to = [0.3, 0.125, -0.1]
+area = 2e-4
+bond_stiffness = 1e8
+bond_strength = 2e3
+shear_stiffness = 1e6
+[[bolt]]
+name = "tie"
+from = [0, 0.125, 0.5]
+to = [2, 0.125, 0.5]
+anchored = "ends"
+area = 1e-4
+pretension = 500
+[[prop]]
+name = "strut"
+from = [2, 0.125, 0.375]
+to = [2.5, 0.125, 0]
+stiffness = 1e6
+''')
+        scene.write_text(scene.read_text().replace("measure = [", 'measure = [{ name = "pin", bolt = "pin" }, { name = "tie", bolt = "tie" }, '))
+        self.expect_same_motion("leaning.toml", 0.03, [3])
+        supports = [json.loads((self.folder / str(count) / "summary.json").read_text())["support"] for count in (1, 3)]
+        self.assertEqual(supports[0]["states"]["slipped"], 1)
+        self.assertEqual(supports[1]["states"], supports[0]["states"])
+
     def test_more_ranks_than_blocks(self):
         self.expect_same_motion("falling_block", 0.02, [4])
 

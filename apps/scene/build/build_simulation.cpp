@@ -26,6 +26,7 @@
 #include "apps/scene/model/support_history.hpp"
 #include "apps/scene/toml/formulas.hpp"
 #include "geometry/boxes/box_pairs.hpp"
+#include "solver/bolts/bolted_blocks.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -353,15 +354,18 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     return BlockModel(define_block(loaded, static_cast<std::size_t>(block), 1.0, *water, *boundaries),
                       *library);
   };
-  BuiltSimulation built{
-      simulation_of(ranks,
-                    {std::move(blocks), std::move(motions), std::move(laws), settings, ties, scene.absent},
-                    again),
-      std::move(choices),
-      parts.size(),
-      {},
-      loaded.overlaps,
-      nullptr};
+  std::vector<Bolt> bolts;
+  if (!scene.bolt.empty() || !scene.prop.empty()) bolts = bolts_of(loaded);
+  std::vector<std::vector<int>> bolted;
+  for (const Bolt& bolt : bolts) bolted.push_back(present_blocks(bolt.chain));
+  BuiltSimulation built{simulation_of(ranks,
+                                      {std::move(blocks), std::move(motions), std::move(laws), settings, ties,
+                                       scene.absent, std::move(bolted)},
+                                      again),
+                        std::move(choices),
+                        parts.size(),
+                        {},
+                        loaded.overlaps};
   built.simulation.start_overlapping(depths_without_force(loaded));
   if (!scene.water.empty())
     built.simulation.set_joint_pressure([water](int a, int b, const Vector3& place) {
@@ -376,7 +380,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     built.as_placed = start_in_equilibrium(scene, built.simulation, diagnostics);
     if (!diagnostics.good()) return std::nullopt;
   }
-  if (!scene.bolt.empty() || !scene.prop.empty()) built.simulation.add_bolts(bolts_of(loaded));
+  if (!bolts.empty()) built.simulation.add_bolts(std::move(bolts));
   return built;
 }
 

@@ -1,6 +1,8 @@
 #include "apps/scene/build/run_ranks.hpp"
 
 #include <algorithm>
+#include <array>
+#include <set>
 #include <utility>
 
 #include "geometry/boxes/box_pairs.hpp"
@@ -9,20 +11,32 @@
 namespace ashlar {
 namespace {
 
+/// Adds the pairs of blocks along bolts that are not in a list yet. @param near the lower block first
+void add_bolted(const std::vector<std::vector<int>>& bolted, std::vector<std::array<int, 2>>& near) {
+  if (bolted.empty()) return;
+  std::set<std::array<int, 2>> known(near.begin(), near.end());
+  for (const std::vector<int>& blocks : bolted)
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      for (std::size_t j = i + 1; j < blocks.size(); ++j)
+        if (known.insert({blocks[i], blocks[j]}).second) near.push_back({blocks[i], blocks[j]});
+}
+
 /// The blocks that a rank tells a partition of: every count-th. Blocks whose boxes are within a distance count as
-/// neighbours with a point at each corner of a common rectangle; contacts are not known before the first step.
-/// @param absent by block, or empty
-std::vector<PartitionBlock> blocks_to_share(const std::vector<BlockModel>& blocks,
-                                            const std::vector<bool>& absent, double distance,
-                                            const Ranks& ranks) {
+/// neighbours with a point at each corner of a common rectangle, as blocks along a bolt do; contacts are not known before
+/// the first step. Absent blocks have no neighbours.
+std::vector<PartitionBlock> blocks_to_share(const SimulationParts& parts, const Ranks& ranks) {
   constexpr int points = 4;
+  const std::vector<BlockModel>& blocks = parts.blocks;
+  const double distance = parts.settings.contact_distance;
   std::vector<Box> boxes;
   boxes.reserve(blocks.size());
   for (const BlockModel& block : blocks)
     boxes.push_back(box_of(block.solid().mesh().points).grown(0.5 * distance));
   std::vector<std::vector<int>> neighbours(blocks.size());
-  const auto is_absent = [&absent](int block) { return !absent.empty() && absent[at(block)]; };
-  for (const auto& [a, b] : meeting_boxes(boxes)) {
+  const auto is_absent = [&parts](int block) { return !parts.absent.empty() && parts.absent[at(block)]; };
+  std::vector<std::array<int, 2>> near = meeting_boxes(boxes);
+  add_bolted(parts.bolted, near);
+  for (const auto& [a, b] : near) {
     if (is_absent(a) || is_absent(b)) continue;
     if (blocks[at(a)].fixed() || blocks[at(b)].fixed()) continue;
     neighbours[at(a)].push_back(b);
@@ -50,9 +64,7 @@ Simulation simulation_of(const RunRanks* shared, SimulationParts parts, const Bl
             parts.settings,          parts.ties,    std::move(parts.absent)};
   const RunRanks& ranks = *shared;
   const auto count = static_cast<int>(parts.blocks.size());
-  std::vector<int> owners = ranks.partition(
-      ranks.ranks, blocks_to_share(parts.blocks, parts.absent, parts.settings.contact_distance, ranks.ranks),
-      count);
+  std::vector<int> owners = ranks.partition(ranks.ranks, blocks_to_share(parts, ranks.ranks), count);
   // Blocks near at the start have been made; later ones are made again.
   const auto made = std::make_shared<std::vector<BlockModel>>(std::move(parts.blocks));
   const BlockLoader made_or_loaded = [made, load](int block) {

@@ -27,6 +27,7 @@ struct SimulationParts {
   SimulationSettings settings;
   std::vector<TieRequest> ties;
   std::vector<bool> absent;
+  std::vector<std::vector<int>> bolted = {};  ///< blocks along each bolt, which better have one rank
 };
 
 /// A simulation, or the part of this rank in it. Models of blocks that are not near go then, but for those of the first

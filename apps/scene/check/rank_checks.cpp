@@ -16,13 +16,7 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
   const SceneAnalysis& analysis = scene.analysis;
   refuse(analysis.type != SceneAnalysis::Type::dynamic && analysis.type != SceneAnalysis::Type::statics,
          "analysis.type", "an analysis that is neither dynamic nor static");
-  refuse(analysis.formulation == SceneAnalysis::Formulation::incremental, "analysis.formulation",
-         "the incremental formulation");
   refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
-  refuse(scene.contact.allowed_overlap > 0.0, "contact.allowed_overlap", "an initial overlap");
-  refuse(!scene.bolt.empty(), "bolt.0", "bolts");
-  refuse(!scene.prop.empty(), "prop.0", "props");
-  refuse(!scene.boundary.empty(), "boundary.0", "boundaries");
 }
 
 }  // namespace ashlar
