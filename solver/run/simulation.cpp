@@ -149,12 +149,18 @@ void Simulation::refuse_late(const char* call) const {
 void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   refuse_late("start_overlapping");
   if (!state_.pairs.empty()) throw std::logic_error("initial overlaps are set before the initial stress");
-  for (const auto& [blocks, depth] : depths) {
-    if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
-        system_.blocks().at(at(blocks[1])).incremental() != nullptr)
-      throw std::invalid_argument("incremental blocks have no initial positions");
-    state_.pairs[blocks].overlap = depth;
-  }
+  const auto take = [&] {
+    for (const auto& [blocks, depth] : depths) {
+      if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
+          system_.blocks().at(at(blocks[1])).incremental() != nullptr)
+        throw std::invalid_argument("incremental blocks have no initial positions");
+      state_.pairs[blocks].overlap = depth;
+    }
+  };
+  if (shared_ == nullptr)
+    take();
+  else
+    do_on_all(system_.share()->ranks(), take);
   if (depths.empty()) return;
   // The initial depth of contacts determines the depth that later contacts may have without force.
   std::map<PairKey, double> placed;

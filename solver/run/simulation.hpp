@@ -58,7 +58,6 @@ class Simulation {
   /// and have the same status on all ranks. Sums over blocks, pairs and points are those of this rank;
   /// gathered_run.hpp has those of the run.
   /// @param blocks share_blocks(). Others as above, the same on all ranks
-  /// @throws std::invalid_argument for what several ranks cannot do yet
   Simulation(BlocksOfRank blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {});
 
@@ -77,11 +76,13 @@ class Simulation {
   std::optional<StressImbalance> start_stressed();
   /// Lets pairs of blocks with an initial overlap touch without force (notes/known_overlaps.md).
   /// @param depths by pair, m, >= 0. @throws std::invalid_argument if a block is incremental: its material points do
-  /// not store their initial places; std::logic_error after start_stressed(), too, whose forces depend on overlaps
+  /// not store their initial places; std::logic_error after start_stressed(), too, whose forces depend on overlaps.
+  /// With several ranks collective, with the same depths on all
   void start_overlapping(const std::map<PairKey, double>& depths);
 
   /// Adds bolts and props, those that are installed without forces but for their pretension, in the present state.
-  /// @throws std::invalid_argument if a block of a bolt is incremental; std::logic_error if there are bolts, too
+  /// @throws std::invalid_argument if a block of a bolt is incremental; std::logic_error if there are bolts, too.
+  /// With several ranks collective, with the same bolts on all
   void add_bolts(std::vector<Bolt> bolts);
 
   /// Moves every block whose supports prevent all rigid motions to its equilibrium under gravity and the loads at
