@@ -77,6 +77,7 @@ std::vector<int> bisected(const std::vector<Eigen::Vector3d>& centroids, const s
 
 std::vector<int> partition_by_place(Ranks& ranks, const std::vector<PartitionBlock>& own, int blocks) {
   std::vector<PlacedWeight> told;
+  told.reserve(own.size());
   for (const PartitionBlock& block : own)
     told.push_back({block.block, block.weight, block.centroid.x(), block.centroid.y(), block.centroid.z()});
   std::vector<PlacedWeight> all;
@@ -104,6 +105,7 @@ std::vector<int> with_names_of(const std::vector<int>& present, const std::vecto
   for (std::size_t k = 0; k < part.size(); ++k)
     if (part[k] >= 0 && present[k] >= 0) common[{part[k], present[k]}] += weights[k];
   std::vector<std::tuple<double, int, int>> matches;
+  matches.reserve(common.size());
   for (const auto& [names, weight] : common) matches.emplace_back(-weight, names.first, names.second);
   std::sort(matches.begin(), matches.end());
   std::vector<int> name(at(parts), -1);

@@ -28,6 +28,7 @@ struct RowSums {
 template <class Value>
 std::vector<std::vector<Value>> exchange_lists(Ranks& ranks, const std::vector<std::vector<Value>>& lists) {
   std::vector<Bytes> messages;
+  messages.reserve(lists.size());
   for (const std::vector<Value>& list : lists) messages.push_back(bytes_of_values<Value>(list));
   std::vector<std::vector<Value>> received;
   for (const Bytes& message : ranks.exchange(std::move(messages)))

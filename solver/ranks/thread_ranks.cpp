@@ -83,6 +83,7 @@ class ThreadRanks final : public Ranks {
     }
     place_.meet();
     std::vector<Bytes> received;
+    received.reserve(at(count()));
     for (int rank = 0; rank < count(); ++rank) received.push_back(std::move(place_.message(rank, own_)));
     place_.meet();
     ++traffic_.calls;

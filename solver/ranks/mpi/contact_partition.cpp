@@ -49,6 +49,7 @@ std::vector<Bytes> contacts_of_all(Ranks& ranks, const std::vector<PartitionBloc
 
 WholeGraph whole_graph(Ranks& ranks, const std::vector<PartitionBlock>& own, int blocks) {
   std::vector<ToldBlock> told;
+  told.reserve(own.size());
   for (const PartitionBlock& block : own)
     told.push_back({block.block, static_cast<int>(block.neighbours.size()), block.weight});
   WholeGraph graph{std::vector<int>(at(blocks), -1), std::vector<double>(at(blocks), 0.0), {}};
@@ -82,6 +83,7 @@ std::vector<PetscInt> whole_weights(const std::vector<double>& weights) {
   constexpr double most = 1e9, finest = 1e3;
   const double scale = std::min(finest, most / std::accumulate(weights.begin(), weights.end(), 0.0));
   std::vector<PetscInt> whole;
+  whole.reserve(weights.size());
   for (const double weight : weights)
     whole.push_back(std::max(1, static_cast<PetscInt>(std::lround(weight * scale))));
   return whole;
