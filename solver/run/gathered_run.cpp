@@ -1,6 +1,7 @@
 #include "solver/run/gathered_run.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -9,6 +10,9 @@
 
 namespace ashlar {
 namespace {
+
+/// Pairs of all ranks in one exchange: a pair of bricks takes 10 to 20 kB.
+constexpr int records_at_a_time = 512;
 
 /// Adds all numbers of a struct.
 template <class Struct>
@@ -109,16 +113,23 @@ std::vector<PairRecord> contacts_of_run(const Simulation& simulation, const Resu
     if (system.owns_pair(record.a, record.b) && needed({record.a, record.b})) own.push_back(record);
   Ranks& ranks = system.share()->ranks();
   std::vector<PairRecord> all = ranks.own() == 0 ? own : std::vector<PairRecord>();
-  send_to_first(
-      ranks,
-      [&](ByteWriter& writer) {
-        if (!own.empty()) writer(own);
-      },
-      [&](ByteReader& reader, int) {
-        std::vector<PairRecord> others;
-        reader(others);
-        for (PairRecord& record : others) all.push_back(std::move(record));
-      });
+  std::size_t sent = 0;
+  // Messages with all pairs would need as much memory again on the first rank.
+  const std::size_t most = at(std::max(1, records_at_a_time / ranks.count()));
+  while (any_rank(ranks, ranks.own() > 0 && sent < own.size())) {
+    send_to_first(
+        ranks,
+        [&](ByteWriter& writer) {
+          const auto first = own.begin() + static_cast<std::ptrdiff_t>(sent);
+          sent = std::min(sent + most, own.size());
+          writer(std::vector<PairRecord>(first, own.begin() + static_cast<std::ptrdiff_t>(sent)));
+        },
+        [&](ByteReader& reader, int) {
+          std::vector<PairRecord> others;
+          reader(others);
+          std::move(others.begin(), others.end(), std::back_inserter(all));
+        });
+  }
   std::sort(all.begin(), all.end(), [](const PairRecord& x, const PairRecord& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
   });

@@ -10,7 +10,6 @@
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
 #include "geometry/solid/face_axes.hpp"
-#include "geometry/solid/shapes.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/step/ghost_models.hpp"
 #include "solver/step/shared_bolts.hpp"
@@ -25,12 +24,15 @@ constexpr double least_margin = 0.05;
 /// Expected motions of a step in the margin.
 constexpr double steps_in_margin = 4.0;
 
-/// A block that stands for all blocks of which a rank knows nothing.
+/// A block that stands for all blocks of which a rank knows nothing: the solid with the fewest faces, as each has a
+/// surface.
 const BlockModel& placeholder() {
   static const BlockModel block = [] {
     BlockDefinition definition;
     definition.name = "absent";
-    definition.solid = std::make_shared<const Polyhedron>(make_box(Vector3::Zero(), Vector3::Ones()));
+    definition.solid = std::make_shared<const Polyhedron>(
+        TriangleMesh{{Vector3::Zero(), Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()},
+                     {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
     definition.material = {1.0, 1.0, 0.0};
     definition.order = 1;
     definition.fixed = true;

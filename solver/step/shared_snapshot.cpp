@@ -1,6 +1,7 @@
 #include "solver/step/shared_snapshot.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -12,31 +13,38 @@
 namespace ashlar {
 namespace {
 
+/// Values by block, at a place each: all blocks of the run, or those of a rank alone.
+struct BlockOf {
+  int place;
+  int places;
+};
+
 /// Copies the value of a block if there is one.
 template <class Value>
-void take_value(int block, const std::vector<Value>& from, std::vector<Value>& to) {
-  if (at(block) >= from.size()) return;
-  if (to.size() < from.size()) to.resize(from.size());
-  to[at(block)] = from[at(block)];
+void take_value(const std::vector<Value>& from, int place, std::vector<Value>& to, const BlockOf& block) {
+  if (at(place) >= from.size()) return;
+  if (to.size() <= at(block.place)) to.resize(at(block.places));
+  to[at(block.place)] = from[at(place)];
 }
 
-void take_block(int block, const SimulationSnapshot& from, SimulationSnapshot& to) {
-  take_value(block, from.run.states, to.run.states);
-  take_value(block, from.run.accelerations, to.run.accelerations);
-  take_value(block, from.run.spin_debts, to.run.spin_debts);
-  take_value(block, from.run.sleep.rests, to.run.sleep.rests);
-  take_value(block, from.finder.tracks, to.finder.tracks);
-  take_value(block, from.finder.divisions, to.finder.divisions);
+void take_block(const SimulationSnapshot& from, int place, SimulationSnapshot& to, const BlockOf& block) {
+  const auto take = [&](const auto& values, auto& taken) { take_value(values, place, taken, block); };
+  take(from.run.states, to.run.states);
+  take(from.run.accelerations, to.run.accelerations);
+  take(from.run.spin_debts, to.run.spin_debts);
+  take(from.run.sleep.rests, to.run.sleep.rests);
+  take(from.finder.tracks, to.finder.tracks);
+  take(from.finder.divisions, to.finder.divisions);
   const StaticState& statics = from.run.statics;
   StaticState& taken = to.run.statics;
-  take_value(block, statics.level_start, taken.level_start);
-  take_value(block, statics.progress.positions, taken.progress.positions);
-  take_value(block, statics.progress.forces, taken.progress.forces);
-  take_value(block, statics.progress.displacements, taken.progress.displacements);
-  take_value(block, statics.progress.residuals, taken.progress.residuals);
-  take_value(block, statics.onset.unbalanced, taken.onset.unbalanced);
-  take_value(block, statics.onset.is_compliant, taken.onset.is_compliant);
-  take_value(block, statics.onset.starts, taken.onset.starts);
+  take(statics.level_start, taken.level_start);
+  take(statics.progress.positions, taken.progress.positions);
+  take(statics.progress.forces, taken.progress.forces);
+  take(statics.progress.displacements, taken.progress.displacements);
+  take(statics.progress.residuals, taken.progress.residuals);
+  take(statics.onset.unbalanced, taken.onset.unbalanced);
+  take(statics.onset.is_compliant, taken.onset.is_compliant);
+  take(statics.onset.starts, taken.onset.starts);
 }
 
 /// Fixed blocks of the run, by block. Collective.
@@ -69,25 +77,73 @@ void keep_changes(SimulationSnapshot& snapshot, const Keeps& keeps) {
   std::erase_if(snapshot.carried, is_other);
 }
 
-void merge_part(const BlockShare& share, int rank, SimulationSnapshot part, SimulationSnapshot& whole) {
-  for (int block = 0; block < share.count(); ++block)
-    if (share.owner(block) == rank) take_block(block, part, whole);
+/// What other ranks do not know of this one: values of its blocks alone, in their order, without pairs.
+SimulationSnapshot values_of_own(const BlockShare& share, const SimulationSnapshot& part) {
+  SimulationSnapshot own;
+  const auto count = static_cast<int>(share.own().size());
+  for (int k = 0; k < count; ++k) take_block(part, share.own()[at(k)], own, {k, count});
+  for (const SleepingIsland& island : part.run.sleep.islands)
+    own.run.sleep.islands.push_back({{}, island.held});
+  own.run.statics.onset.sliding = part.run.statics.onset.sliding;
+  own.run.bolts = part.run.bolts;
+  own.reactions = part.reactions;
+  own.carried = part.carried;
+  return own;
+}
+
+void merge_values(const BlockShare& share, int rank, SimulationSnapshot of_rank, SimulationSnapshot& whole) {
+  for (int block = 0, k = 0; block < share.count(); ++block)
+    if (share.owner(block) == rank) take_block(of_rank, k++, whole, {block, share.count()});
   // All ranks list the same islands, each with the energy that it holds.
   for (std::size_t k = 0; k < whole.run.sleep.islands.size(); ++k)
-    whole.run.sleep.islands[k].held += part.run.sleep.islands.at(k).held;
+    whole.run.sleep.islands[k].held += of_rank.run.sleep.islands.at(k).held;
   for (std::size_t k = 0; k < whole.run.bolts.size(); ++k)
-    if (part.run.bolts[k].installed()) whole.run.bolts[k] = part.run.bolts[k];
-  whole.reactions.merge(part.reactions);
-  whole.carried.merge(part.carried);
-  for (auto& [blocks, pair] : part.run.pairs) {
-    // A rank with one of two blocks may know their overlap alone.
-    PairHistory& known = whole.run.pairs[blocks];
-    if (known.memory.empty() && known.work == 0.0) known = std::move(pair);
-  }
-  whole.run.records.insert(whole.run.records.end(), part.run.records.begin(), part.run.records.end());
+    if (of_rank.run.bolts[k].installed()) whole.run.bolts[k] = of_rank.run.bolts[k];
+  whole.reactions.merge(of_rank.reactions);
+  whole.carried.merge(of_rank.carried);
   std::vector<PairKey>& sliding = whole.run.statics.onset.sliding;
-  const std::vector<PairKey>& others = part.run.statics.onset.sliding;
+  const std::vector<PairKey>& others = of_rank.run.statics.onset.sliding;
   sliding.insert(sliding.end(), others.begin(), others.end());
+}
+
+/// Pairs of all ranks in one exchange: a pair of bricks takes 20 to 30 kB.
+constexpr int pairs_at_a_time = 512;
+
+/// Adds the pairs of all ranks to those of the first one, some at a time: messages with all of them would need as much
+/// memory again there. Collective. @param run with own pairs only
+void send_pairs(Ranks& ranks, RunState& run) {
+  const int most = std::max(1, pairs_at_a_time / ranks.count());
+  auto pair = run.pairs.cbegin();
+  std::size_t record = 0;
+  const auto unsent = [&] {
+    return ranks.own() > 0 && (pair != run.pairs.cend() || record < run.records.size());
+  };
+  while (any_rank(ranks, unsent())) {
+    send_to_first(
+        ranks,
+        [&](ByteWriter& writer) {
+          PairHistories pairs;
+          std::vector<PairRecord> records;
+          for (int count = 0; count < most && unsent(); ++count) {
+            if (pair != run.pairs.cend())
+              pairs.insert(*pair++);
+            else
+              records.push_back(run.records[record++]);
+          }
+          writer(pairs, records);
+        },
+        [&](ByteReader& reader, int) {
+          PairHistories pairs;
+          std::vector<PairRecord> records;
+          reader(pairs, records);
+          for (auto& [blocks, history] : pairs) {
+            // A rank with one of two blocks may know their overlap alone.
+            PairHistory& known = run.pairs[blocks];
+            if (known.memory.empty() && known.work == 0.0) known = std::move(history);
+          }
+          std::move(records.begin(), records.end(), std::back_inserter(run.records));
+        });
+  }
 }
 
 /// Tracks and divisions of the blocks that a rank has.
@@ -96,8 +152,8 @@ FinderState finder_state_here(const BlockSystem& system, const ContactFinder& fi
   FinderState here = finder.state();
   for (int k = 0; k < system.count(); ++k) {
     if (!system.here(k)) continue;
-    take_value(k, whole.finder.tracks, here.tracks);
-    take_value(k, whole.finder.divisions, here.divisions);
+    take_value(whole.finder.tracks, k, here.tracks, {k, system.count()});
+    take_value(whole.finder.divisions, k, here.divisions, {k, system.count()});
   }
   here.counts = first ? whole.finder.counts : FinderCounts{};
   return here;
@@ -109,7 +165,7 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
   const SimulationSnapshot present = snapshot_of(system, state, caches);
   SimulationSnapshot part = whole;
   for (int k = 0; k < system.count(); ++k)
-    if (!system.here(k)) take_block(k, present, part);
+    if (!system.here(k)) take_block(present, k, part, {k, system.count()});
   part.finder = finder_state_here(system, caches.contacts.finder(), whole, first);
   keep_changes(part, [&](int block) {
     return system.here(block) || system.blocks()[at(block)].incremental() != nullptr;
@@ -139,12 +195,13 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
   part.factors.clear();
   const double balance = sum_of_ranks(share.ranks(), part.run.ledger.start_balance());
   send_to_first(
-      share.ranks(), [&](ByteWriter& writer) { writer(part); },
+      share.ranks(), [&](ByteWriter& writer) { writer(values_of_own(share, part)); },
       [&](ByteReader& reader, int rank) {
         SimulationSnapshot other;
         reader(other);
-        merge_part(share, rank, std::move(other), part);
+        merge_values(share, rank, std::move(other), part);
       });
+  send_pairs(share.ranks(), part.run);
   if (share.ranks().own() > 0) return part;
   if (totals == nullptr) throw std::logic_error("results are gathered before a snapshot of several ranks");
   std::sort(part.run.records.begin(), part.run.records.end(), [](const PairRecord& x, const PairRecord& y) {
@@ -215,7 +272,7 @@ void restore_own(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
                  SimulationSnapshot own) {
   const SimulationSnapshot present = snapshot_of(system, state, caches);
   for (int k = 0; k < system.count(); ++k)
-    if (!system.owns(k)) take_block(k, present, own);
+    if (!system.owns(k)) take_block(present, k, own, {k, system.count()});
   std::erase_if(own.run.pairs, [&](const auto& entry) {
     return !system.here(entry.first[0]) || !system.here(entry.first[1]);
   });
