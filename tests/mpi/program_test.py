@@ -290,6 +290,21 @@ joint = [{ blocks = ["a", "b"], tied = true }, { blocks = ["b", "c"], tied = tru
 ''', encoding="utf-8")
         self.expect_same_motion("falling.toml", 0.25, [2, 3])
 
+    def test_initial_stress_is_the_same_on_many_ranks(self):
+        """A column of stones that a pillar stands beside, both under the stress of the ground as it was."""
+        stones = ", ".join(f'{{ name = "s{k}", material = "rock", box = {{ min = [0, 0, {0.5 * k}], max = [1, 1, {0.5 * k + 0.5}] }} }}'
+                           for k in range(6))
+        (self.folder / "stressed.toml").write_text(f'''
+analysis = {{ end_time = 0.03, time_step = 1e-3 }}
+contact = {{ friction_angle = 30 }}
+initial_stress = {{ unit_weight = 25000, k0 = 0.5, surface = 3 }}
+material = [{{ name = "rock", density = 2500, young_modulus = 1e9, poisson_ratio = 0.25 }}]
+measure = [{{ name = "top", block = "s5", point = [0.5, 0.5, 3] }}]
+block = [{{ name = "ground", fixed = true, box = {{ min = [-1, -1, -1], max = [4, 2, 0] }} }},
+  {{ name = "pillar", material = "rock", box = {{ min = [1, 0, 0], max = [2, 1, 3] }} }}, {stones}]
+''', encoding="utf-8")
+        self.expect_same_motion("stressed.toml", 0.03, [3])
+
     def write_stages(self):
         """A wall that loses a brick of its lowest course, and then gets a block on top that is pushed across."""
         scene = self.folder / "stages.toml"
