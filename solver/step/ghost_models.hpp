@@ -9,7 +9,7 @@
 
 namespace ashlar {
 
-/// What a run has changed in the model of a block.
+/// Changes of a block's model by the run.
 struct ModelChange {
   Eigen::MatrixX3d reaction;  ///< released_reaction()
   CarriedShape shape;         ///< of an incremental block

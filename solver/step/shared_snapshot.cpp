@@ -77,7 +77,7 @@ void keep_changes(SimulationSnapshot& snapshot, const Keeps& keeps) {
   std::erase_if(snapshot.carried, is_other);
 }
 
-/// What other ranks do not know of this one: values of its blocks alone, in their order, without pairs.
+/// Values of the own blocks of this rank, in their order, without pairs: other ranks do not know them.
 SimulationSnapshot values_of_own(const BlockShare& share, const SimulationSnapshot& part) {
   SimulationSnapshot own;
   const auto count = static_cast<int>(share.own().size());

@@ -16,7 +16,7 @@ namespace ashlar {
 [[nodiscard]] SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
                                                 const RunTotals* totals);
 
-/// What this rank needs of the histories of all pairs: whole ones of pairs of an own block and one that is here; of other
+/// Hands over the histories that this rank needs of those of all pairs: whole ones of pairs of an own block and one that is here; of other
 /// pairs that it makes the sums only, as if the other block had gone away. All ranks know initial overlaps. Collective.
 /// @param whole of the run, the same on all ranks. @param keep called for each pair, with the history without what it has
 /// found (forget_contacts) unless both blocks are here

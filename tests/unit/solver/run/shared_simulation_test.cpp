@@ -13,6 +13,7 @@ using test_support::distance;
 using test_support::End;
 using test_support::fixed_box;
 using test_support::joint;
+using test_support::owners_along;
 using test_support::owners_of;
 using test_support::pile;
 using test_support::run_alone;
@@ -253,24 +254,42 @@ TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
   });
 }
 
-/// Boxes that fall on a base and on each other and rebound.
-TEST(SharedSimulation, BlocksOfSeveralRanksReboundAlike) {
+/// A pile that falls on a base and on itself and rebounds, with springs and with multipliers.
+/// @param owners_for ranks: of the blocks. @param balanced with multipliers: is the energy balance of each step compared, too?
+void expect_same_rebound(Scene scene, const std::function<std::vector<int>(int ranks)>& owners_for, int steps,
+                         bool balanced) {
+  scene.law.restitution = 0.5;
   for (const bool augmented : {false, true}) {
-    Scene scene = pile(2, 1);
-    scene.law.restitution = 0.5;
     scene.settings.augmented = augmented;
-    const End alone = run_alone(scene, 90);
+    const End alone = run_alone(scene, steps);
     ASSERT_GT(alone.totals.ledger.damping, 1.0);  // of impacts
     for (const int ranks : {2, 4}) {
-      const End shared = run_shared(scene, owners_of(scene, ranks), ranks, 90);
+      const End shared = run_shared(scene, owners_for(ranks), ranks, steps);
       EXPECT_LT(distance(alone, shared), 1e-8) << ranks;
       EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
                   1e-7 * alone.totals.ledger.damping);
-      // In the first step boxes touch within rounding: each such point may leave this share of a force, and which part
-      // of it is left depends on the last bits.
-      EXPECT_LT(shared.largest_step_residual, IterationSettings::doubt_share * shared.totals.ledger.kinetic);
+      // Tolerances of the iteration leave as much on one rank.
+      if (!augmented || balanced) {
+        EXPECT_LT(shared.largest_step_residual,
+                  2.0 * alone.largest_step_residual + 1e-9 * shared.totals.ledger.kinetic);
+      }
     }
   }
+}
+
+TEST(SharedSimulation, BlocksOfSeveralRanksReboundAlike) {
+  // Layers that are apart, each on ranks of its own.
+  const Scene scene = pile(2, 1, 0.6, 0.38);
+  expect_same_rebound(
+      scene, [&](int ranks) { return owners_along(2, scene.blocks, ranks); }, 120, true);
+}
+
+TEST(SharedSimulation, OverlappingBlocksOfSeveralRanksReboundAlike) {
+  // The first step separates them, with multipliers by far more energy than the fall: its balance is as accurate as the
+  // solution of that, and differs with the last bits (2e-8 of the kinetic energy; other steps 1e-12).
+  const Scene scene = pile(2, 1);
+  expect_same_rebound(
+      scene, [&](int ranks) { return owners_of(scene, ranks); }, 90, false);
 }
 
 /// The first of five cubes hits a row of four with small gaps between them: the last one leaves with its velocity.
