@@ -266,7 +266,8 @@ class StaticIteration {
     note_residuals(system_, problem_, statics);
     accept(system_, state_, caches_, std::move(problem_));
     state_.report.step = step_of(scheme);
-    if (statics.freezes_failure && (balanced || has_gone_far())) let_bonds_go(state_);
+    // Blocks that move although no bond can fail need no other iteration.
+    if (statics.freezes_failure && !statics.moving && (balanced || has_gone_far())) let_bonds_go(state_);
     if (!converged) {
       statics.inertia = 10.0 * scheme.inertia;
     } else if (!cut_) {

@@ -201,6 +201,10 @@ MovingBlocks moving_blocks(const BlockSystem& system, const RunState& state) {
         state.statics.progress.displacements[k] <=
             taken_along_share * system.settings().statics.displacement_limit)
       continue;
+    if (state.statics.onset.unbalanced.empty()) {
+      moving.later.push_back({static_cast<int>(k), Vector3::Zero(), Vector3::Zero()});
+      continue;
+    }
     const Eigen::MatrixX3d& a = state.statics.onset.unbalanced[k];
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
