@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,9 +32,24 @@ template <class Value>
   std::vector<Value> values;
   for (const Bytes& given : ranks.gather(message_of(writer))) {
     ByteReader reader(text_of_message(given));
-    reader(values.emplace_back());
+    Value of_rank{};
+    reader(of_rank);
+    values.push_back(std::move(of_rank));
   }
   return values;
+}
+
+/// The result of work of the first rank, on all ranks. If it throws, all ranks throw as in do_on_all(). Collective.
+/// @param work called on the first rank only, not collective
+template <class Work>
+[[nodiscard]] std::invoke_result_t<Work> value_of_first(Ranks& ranks, const Work& work) {
+  if (ranks.alone()) return work();
+  std::invoke_result_t<Work> value{};
+  do_on_all(ranks, [&] {
+    if (ranks.own() == 0) value = work();
+  });
+  std::vector<std::invoke_result_t<Work>> values = values_of_ranks(ranks, value);
+  return std::move(values.front());
 }
 
 /// Sends values of all other ranks to the first one. Collective. @param write (archive), not on the first rank

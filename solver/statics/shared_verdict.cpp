@@ -130,12 +130,10 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
           take(block, std::move(position), std::move(start));
         }
       });
-  ToldVerdict here;
-  do_on_all(ranks, [&] {
-    if (first && starts.empty()) whole->state.statics.level_start.clear();
-    if (first) here = answer_of(*whole, end_time, status);
+  const ToldVerdict told = value_of_first(ranks, [&] {
+    if (starts.empty()) whole->state.statics.level_start.clear();
+    return answer_of(*whole, end_time, status);
   });
-  const ToldVerdict told = values_of_ranks(ranks, here).front();
   if (told.status == status) return status;
   if (told.status == StaticStatus::moving)
     take_motion(told, run.state.statics);
