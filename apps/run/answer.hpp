@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/run/factor_search.hpp"
+#include "solver/run/simulation.hpp"
 #include "solver/statics/limit_analysis.hpp"
 #include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/support_movement.hpp"
@@ -45,6 +46,8 @@ struct Answer {
   std::optional<FactorBracket> bracket;  ///< of a search by static analyses
   std::optional<LimitFindings> limits;   ///< of a search by limit analysis; beside bracket: where that began
   std::optional<ThrustFindings> thrust;
+  /// Onset of the motion found by limit analysis, to be drawn.
+  std::vector<RigidDisplacement> drawn;
 
   /// True if only the onset of motion is drawn, without an analysis of it.
   [[nodiscard]] bool drawn_only() const { return (limits && !bracket) || thrust; }

@@ -6,7 +6,9 @@
 
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/limit_run.hpp"
+#include "apps/run/run_setup.hpp"
 #include "apps/run/thrust_run.hpp"
+#include "solver/ranks/rank_messages.hpp"
 
 namespace ashlar {
 namespace {
@@ -30,62 +32,90 @@ bool seeks_answer(const SceneAnalysis& analysis) {
 }
 
 AnswerSearch::AnswerSearch(std::shared_ptr<const LoadedScene> scene, std::uint64_t hash,
-                           const Simulation& placed, int threads, TrialStorage storage)
+                           const Simulation& placed, int threads, TrialStorage storage, const RunRanks* ranks)
     : scene_(std::move(scene)),
       hash_(hash),
       threads_(threads),
       storage_(std::move(storage)),
-      model_(limit_model(scene_->scene, placed)),
-      by_limits_(uses_limit_analysis(scene_->scene, model_)) {
+      shared_(ranks != nullptr && ranks->several() ? ranks : nullptr),
+      ranks_(shared_ != nullptr ? shared_->ranks : alone_),
+      plan_(value_of_first(ranks_, [&] { return planned(placed); })),
+      stores_(value_of_first(ranks_, [&] { return storage_.claim != nullptr; })) {}
+
+/// Makes the rigid model, on the first rank.
+AnswerSearch::Plan AnswerSearch::planned(const Simulation& placed) {
+  if (shared_ != nullptr) whole_.emplace(built_or_thrown(*scene_, threads_));
+  model_ = limit_model(scene_->scene, whole_ ? whole_->simulation : placed);
+  const bool by_limits = uses_limit_analysis(scene_->scene, model_);
   // A search by static analyses begins with the result of limit analysis for the same strengths.
-  const bool limits_first = by_limits_ || (model_ && !loses_strength(*model_));
-  if (!limits_first && !seeks_thrust(scene_->scene.analysis)) model_.reset();
+  const bool limits_first = by_limits || (model_ && !loses_strength(*model_));
+  if (!limits_first && !seeks_thrust(scene_->scene.analysis)) {
+    model_.reset();
+    whole_.reset();
+  }
+  return {limits_first, by_limits};
+}
+
+bool AnswerSearch::goes_on(const RunObservers& observers) const {
+  return !any_rank(ranks_, !observers.go_on());
 }
 
 bool AnswerSearch::advance(const Simulation& placed, const RunObservers& observers) {
   if (seeks_thrust(scene_->scene.analysis)) return find_thrust_first(placed, observers);
-  if (model_) return find_limits_first(observers);
+  if (std::exchange(plan_.limits_first, false)) return find_limits_first(placed, observers);
   return advance_trial(observers);
 }
 
 bool AnswerSearch::find_thrust_first(const Simulation& placed, const RunObservers& observers) {
   bool stopped = false;
-  answer_.thrust = find_thrust(scene_->scene, std::exchange(model_, std::nullopt).value(), placed, threads_,
-                               [&] { return !(stopped = stopped || !observers.go_on()); });
-  if (stopped || !observers.go_on())
+  answer_.thrust = value_of_first(ranks_, [&] {
+    return find_thrust(scene_->scene, std::exchange(model_, std::nullopt).value(),
+                       whole_ ? whole_->simulation : placed, threads_,
+                       [&] { return !(stopped = stopped || !observers.go_on()); });
+  });
+  whole_.reset();
+  if (any_rank(ranks_, stopped) || !goes_on(observers))
     interrupted_ = "interrupted while supports moved, which a new run begins with";
   return false;
 }
 
-bool AnswerSearch::find_limits_first(const RunObservers& observers) {
-  answer_.limits = find_limits(scene_->scene, std::exchange(model_, std::nullopt).value(), threads_,
+bool AnswerSearch::find_limits_first(const Simulation& placed, const RunObservers& observers) {
+  answer_ = value_of_first(ranks_, [&] {
+    Answer found;
+    found.limits = find_limits(scene_->scene, std::exchange(model_, std::nullopt).value(), threads_,
                                [&] { return observers.go_on(); });
+    found.drawn = drawn_motion(found.limits->released, whole_ ? whole_->simulation : placed);
+    return found;
+  });
+  whole_.reset();
   observers.tell(&RunObserver::limits_found, *answer_.limits);
   if (answer_.limits->answer.interrupted) {
     interrupted_ = fmt::format("interrupted after {} trials of limit analysis, which a new run begins with",
                                answer_.limits->answer.trials.size());
     return false;
   }
-  return !by_limits_;
+  return !plan_.by_limits;
 }
 
 bool AnswerSearch::advance_trial(const RunObservers& observers) {
   if (!search_) {
     search_.emplace(search_of(scene_->scene.analysis), expected_factor(answer_.limits));
-    if (storage_.claim)
-      trials_ = std::make_unique<TrialFolder>(storage_.claim, hash_, storage_.resume, storage_.interval);
+    do_on_all(ranks_, [&] {
+      if (storage_.claim)
+        trials_ = std::make_unique<TrialFolder>(storage_.claim, hash_, storage_.resume, storage_.interval);
+    });
   }
   if (!trial_ && !begin_trial(observers)) return !answer_.bracket;
-  if (!observers.go_on()) {
+  if (!goes_on(observers)) {
     interrupt_trial(observers);
     return false;
   }
   if (trial_->iterate()) {
     observers.tell(&RunObserver::trial_continues, trial_->factor(), trial_->iterations());
-    if (trials_) trials_->save_if_due(*trial_);
+    if (stores_ && value_of_first(ranks_, [&] { return trials_->due(); })) save_trial();
     return true;
   }
-  if (trials_) trials_->add(*trial_->result());
+  store_result();
   add(*trial_->result(), trial_->reason(), observers);
   trial_.reset();
   return true;
@@ -98,19 +128,36 @@ bool AnswerSearch::begin_trial(const RunObservers& observers) {
     answer_.bracket = search_->bracket();
     return false;
   }
-  if (const auto known = trials_ ? trials_->find(*factor) : std::nullopt) {
-    add(*known, "", observers);
-    return false;
+  if (stores_) {
+    if (const auto known = value_of_first(ranks_, [&] { return trials_->find(*factor); })) {
+      add(*known, "", observers);
+      return false;
+    }
   }
-  trial_.emplace(*scene_, *factor, threads_);
+  trial_.emplace(*scene_, *factor, threads_, shared_);
   if (trial_->result()) {
-    if (trials_) trials_->add(*trial_->result());
+    store_result();
     add(*trial_->result(), "", observers);
     trial_.reset();
     return false;
   }
-  if (trials_) trials_->begin(*trial_);
+  if (stores_)
+    if (const auto state = value_of_first(ranks_, [&] { return trials_->begin(*factor); }))
+      trial_->restore(*state);
   return true;
+}
+
+void AnswerSearch::save_trial() {
+  const RunCheckpoint state = trial_->state();
+  do_on_all(ranks_, [&] {
+    if (trials_) trials_->save(trial_->factor(), state);
+  });
+}
+
+void AnswerSearch::store_result() {
+  do_on_all(ranks_, [&] {
+    if (trials_) trials_->add(*trial_->result());
+  });
 }
 
 void AnswerSearch::add(const FactorTrial& trial, const std::string& reason, const RunObservers& observers) {
@@ -119,7 +166,7 @@ void AnswerSearch::add(const FactorTrial& trial, const std::string& reason, cons
 }
 
 void AnswerSearch::interrupt_trial(const RunObservers& observers) {
-  if (trials_) trials_->save(*trial_);
+  if (stores_) save_trial();
   observers.tell(&RunObserver::trial_stops, trial_->factor(), trial_->iterations());
   const FactorBracket bracket = search_->bracket();
   interrupted_ = fmt::format(

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "apps/results/folder/run_status.hpp"
+#include "solver/step/agreement.hpp"
 
 namespace ashlar {
 namespace {
@@ -26,6 +27,15 @@ const char* mode_of(const PairRecord& record) {
   if (!(slides > 0.0) && !(sticks > 0.0)) return "opens";
   if (open > slides + sticks) return "opens";
   return slides >= sticks ? "slides" : "sticks";
+}
+
+/// Each rank knows the present positions of its own blocks.
+bool any_displaced(const Simulation& simulation) {
+  const std::vector<DisplacedBlock> displaced = displaced_blocks(simulation);
+  return any_of_run(simulation.system(),
+                    std::any_of(displaced.begin(), displaced.end(), [&](const DisplacedBlock& block) {
+                      return simulation.system().owns(block.block);
+                    }));
 }
 
 }  // namespace
@@ -48,8 +58,7 @@ TrialFactors trial_factors(const SceneAnalysis& analysis, double factor) {
 
 StaticStatus trial_step(Simulation& simulation, double end_time) {
   const StaticStatus status = simulation.static_step(end_time, displaced_share);
-  return status == StaticStatus::balancing && !displaced_blocks(simulation).empty() ? StaticStatus::moving
-                                                                                    : status;
+  return status == StaticStatus::balancing && any_displaced(simulation) ? StaticStatus::moving : status;
 }
 
 StaticStatus attempted_step(Simulation& simulation, double end_time) {
@@ -58,6 +67,7 @@ StaticStatus attempted_step(Simulation& simulation, double end_time) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
+    if (simulation.shared_blocks() != nullptr) throw;
     return StaticStatus::not_converged;
   }
 }
@@ -65,7 +75,7 @@ StaticStatus attempted_step(Simulation& simulation, double end_time) {
 TrialOutcome outcome_of(StaticStatus status, const Simulation& simulation) {
   switch (status) {
     case StaticStatus::equilibrium:
-      return displaced_blocks(simulation).empty() ? TrialOutcome::stands : TrialOutcome::moves;
+      return any_displaced(simulation) ? TrialOutcome::moves : TrialOutcome::stands;
     case StaticStatus::moving:
       return TrialOutcome::moves;
     case StaticStatus::balancing:

@@ -12,6 +12,7 @@
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
 #include "mechanics/bolt/bolt_strength.hpp"
+#include "solver/ranks/rank_messages.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/state/automatic.hpp"
 
@@ -209,8 +210,11 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
 
 void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation) {
   if (forces.empty()) return;
+  simulation.gather_results();
   SimulationSnapshot snapshot = simulation.snapshot();
   snapshot.run.bolts = bolts_under(forces, simulation.system().bolts(), simulation.bolts());
+  if (const SharedBlocks* shared = simulation.shared_blocks())
+    snapshot = std::move(values_of_ranks(shared->share->ranks(), snapshot).front());
   simulation.restore(snapshot);
 }
 

@@ -41,7 +41,7 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
 [[nodiscard]] nlohmann::ordered_json limit_summary(const LimitFindings& findings,
                                                    const Simulation& simulation);
 
-/// The simulation's bolts with the forces of a limit state.
+/// The simulation's bolts with the forces of a limit state. Collective.
 void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation);
 
 /// An array: name, axial_force (N, the largest by its amount, tension positive) and shear_force (N) of each bolt with

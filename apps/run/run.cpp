@@ -92,9 +92,10 @@ void Run::prepare_piece() {
     started_ = true;
     if (seeks_answer(whole().analysis)) {
       // A continued run has drawn the onset of motion already.
-      if (earlier_) built_ = built_or_thrown(*present_, manner_.threads);
+      if (earlier_) built_ = built_stage(present_, manner_.threads, manner_.ranks);
       search_ = std::make_unique<AnswerSearch>(scene_, identity_.scene, built_.simulation, manner_.threads,
-                                               TrialStorage{claim_, keeps_trials_, checkpoint_interval_});
+                                               TrialStorage{claim_, keeps_trials_, checkpoint_interval_},
+                                               manner_.ranks);
     }
   }
   if (search_ && search_piece()) return;
@@ -162,8 +163,8 @@ bool Run::search_piece() {
     status_ = RunStatus::interrupted;
   } else if (answer_.bracket) {
     const SceneAnalysis& analysis = whole().analysis;
-    built_ = built_or_thrown(*scene_, manner_.threads,
-                             trial_factors(analysis, shown_factor(*answer_.bracket, search_of(analysis))));
+    built_ = built_stage(scene_, manner_.threads, manner_.ranks,
+                         trial_factors(analysis, shown_factor(*answer_.bracket, search_of(analysis))));
   }
   if (earlier_) built_.simulation.restore(earlier_->simulation);
   search_.reset();
@@ -284,8 +285,7 @@ void Run::take_iteration() {
 void Run::draw_onset() {
   Simulation& simulation = built_.simulation;
   if (simulation.steps() == 0) {
-    simulation.displace(answer_.thrust ? std::vector<RigidDisplacement>()
-                                       : drawn_motion(answer_.limits->released, simulation));
+    simulation.displace(answer_.drawn);
     set_bolts(answer_.thrust ? drawn_bars(*answer_.thrust) : answer_.limits->released.bars, simulation);
     if (!accept_step()) return;
   }

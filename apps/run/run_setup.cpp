@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/results/tables/group_measure.hpp"
+#include "apps/run/answer_search.hpp"
 #include "apps/run/limit_run.hpp"
 #include "apps/run/movement_run.hpp"
 #include "apps/scene/check/loose_blocks.hpp"
@@ -22,6 +23,13 @@ void refuse_idle_cracks(const Scene& scene, const std::vector<BlockModel>& block
       diagnostics.error(scene.places.key(fmt::format("measure.{}.crack", k)),
                         "no faces of these blocks touch (0 joints), at least one joint is needed");
   }
+}
+
+/// @param placed all blocks as placed
+void refuse_idle_searches(const Scene& scene, const Simulation& placed, Diagnostics& diagnostics) {
+  const std::optional<RigidModel> model = limit_model(scene, placed);
+  refuse_idle_limits(scene, model, diagnostics);
+  refuse_movements(scene, model, diagnostics);
 }
 
 /// @throws std::runtime_error with the first fault
@@ -52,20 +60,24 @@ std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedSce
   if (built) built->scene = first;
   if (built && is_static(scene.analysis)) refuse_loose_blocks(scene, built->simulation, diagnostics);
   if (!built || !diagnostics.good()) return built;
-  const std::optional<RigidModel> model = limit_model(scene, built->simulation);
-  refuse_idle_limits(scene, model, diagnostics);
-  refuse_movements(scene, model, diagnostics);
+  if (ranks == nullptr || !ranks->several()) {
+    refuse_idle_searches(scene, built->simulation, diagnostics);
+  } else if (ranks->first() && seeks_answer(scene.analysis)) {
+    const BuiltSimulation whole = built_or_thrown(*first, threads);
+    refuse_idle_searches(scene, whole.simulation, diagnostics);
+  }
   // Other ranks have no models of blocks elsewhere.
   if (ranks == nullptr || ranks->first()) refuse_idle_cracks(scene, built->simulation.blocks(), diagnostics);
   return built;
 }
 
-BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads, const TrialFactors& factors) {
-  return built_with(stage, threads, factors, nullptr);
+BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads) {
+  return built_with(stage, threads, {}, nullptr);
 }
 
-BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads, const RunRanks* ranks) {
-  BuiltSimulation built = built_with(*stage, threads, {}, ranks);
+BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads, const RunRanks* ranks,
+                            const TrialFactors& factors) {
+  BuiltSimulation built = built_with(*stage, threads, factors, ranks);
   built.scene = std::move(stage);
   return built;
 }

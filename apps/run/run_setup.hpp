@@ -14,7 +14,7 @@ namespace ashlar {
                                                              std::size_t stage);
 
 /// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, searches
-/// with nothing to find, and cracks without joints.
+/// with nothing to find, and cracks without joints. On several ranks the first one reports all of these.
 /// @param first of stage_scene(), kept with the result. @param threads >= 1. @param ranks see build_simulation
 /// @return empty if a block cannot be built
 [[nodiscard]] std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedScene> first,
@@ -23,10 +23,9 @@ namespace ashlar {
                                                                const RunRanks* ranks = nullptr);
 
 /// The simulation of a stage. @throws std::runtime_error if its blocks cannot be built
-[[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads,
-                                              const TrialFactors& factors = {});
+[[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads);
 /// The same, which ranks may share; collective then. @param stage not null, kept with the result. @param ranks null: none
 [[nodiscard]] BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads,
-                                          const RunRanks* ranks);
+                                          const RunRanks* ranks, const TrialFactors& factors = {});
 
 }  // namespace ashlar

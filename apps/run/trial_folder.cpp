@@ -62,24 +62,24 @@ std::optional<FactorTrial> TrialFolder::find(double factor) const {
   return found == trials_.end() ? std::nullopt : std::optional(*found);
 }
 
-void TrialFolder::begin(TrialRun& trial) {
+std::optional<RunCheckpoint> TrialFolder::begin(double factor) {
   schedule_ = CheckpointSchedule(interval_, RunClock::now());
-  if (!std::filesystem::exists(state_path_)) return;
+  if (!std::filesystem::exists(state_path_)) return std::nullopt;
   try {
-    trial.restore(read_checkpoint(state_path_, hash_of(trial.factor())));
+    return read_checkpoint(state_path_, hash_of(factor));
   } catch (const CheckpointError&) {
     std::filesystem::remove(state_path_);
+    return std::nullopt;
   }
 }
 
-void TrialFolder::save_if_due(const TrialRun& trial) {
-  if (!schedule_.due(RunClock::now())) return;
-  save(trial);
-  schedule_.saved(RunClock::now());
+bool TrialFolder::due() const {
+  return schedule_.due(RunClock::now());
 }
 
-void TrialFolder::save(const TrialRun& trial) const {
-  write_checkpoint(state_path_, hash_of(trial.factor()), trial.state());
+void TrialFolder::save(double factor, const RunCheckpoint& state) {
+  write_checkpoint(state_path_, hash_of(factor), state);
+  schedule_.saved(RunClock::now());
 }
 
 void TrialFolder::add(const FactorTrial& trial) {

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "apps/results/folder/folder_claim.hpp"
+#include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/run/checkpoint_schedule.hpp"
-#include "apps/run/trial_run.hpp"
+#include "apps/run/factor_search.hpp"
+#include "apps/scene/model/scene.hpp"
 
 namespace ashlar {
 
@@ -31,10 +33,11 @@ class TrialFolder {
 
   /// Trial of a factor, if it is stored.
   [[nodiscard]] std::optional<FactorTrial> find(double factor) const;
-  /// Restores the state of an interrupted trial; without one of this scene and factor the trial remains as it is.
-  void begin(TrialRun& trial);
-  void save_if_due(const TrialRun& trial);
-  void save(const TrialRun& trial) const;
+  /// Begins a trial. @return its state, if it was interrupted; empty without one of this scene and factor
+  [[nodiscard]] std::optional<RunCheckpoint> begin(double factor);
+  /// True if the state of the trial is to be saved now.
+  [[nodiscard]] bool due() const;
+  void save(double factor, const RunCheckpoint& state);
   /// Stores a complete trial in place of its state.
   void add(const FactorTrial& trial);
 

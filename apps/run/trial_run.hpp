@@ -14,7 +14,9 @@ namespace ashlar {
 class TrialRun {
  public:
   /// From the blocks as placed. If they cannot be built the trial has ended, inconclusive.
-  TrialRun(const LoadedScene& scene, double factor, int threads);
+  /// @param scene must outlive this. @param ranks that share the trial, all members but plain values are collective then;
+  /// null: none
+  TrialRun(const LoadedScene& scene, double factor, int threads, const RunRanks* ranks = nullptr);
 
   /// Takes an iteration of a trial that has not ended. @return true if it goes on
   bool iterate();
@@ -23,10 +25,11 @@ class TrialRun {
   [[nodiscard]] int iterations() const { return built_ ? built_->simulation.steps() : 0; }
   /// Empty until the trial has ended.
   [[nodiscard]] const std::optional<FactorTrial>& result() const { return result_; }
-  /// Reason for an inconclusive result; empty otherwise.
+  /// Reason for an inconclusive result, on the first rank; empty otherwise.
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
-  /// State between two iterations, for restore() of a trial of the same factor: simulation and changes of contacts.
+  /// State between two iterations, for restore() of a trial of the same factor: simulation and changes of contacts. Of
+  /// several ranks the first one has it, and all restore it.
   [[nodiscard]] RunCheckpoint state() const;
   void restore(const RunCheckpoint& state);
 

@@ -125,7 +125,9 @@ RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& mul
 }
 
 void Simulation::displace(const std::vector<RigidDisplacement>& displacements) {
+  told_.reset();
   for (const RigidDisplacement& way : displacements) {
+    if (!system_.here(way.block)) continue;
     Eigen::MatrixX3d& position = state_.states.at(at(way.block)).position;
     const Eigen::VectorXd one =
         constant_function(position.rows(), system_.blocks()[at(way.block)].basis().volume());

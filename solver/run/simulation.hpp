@@ -128,11 +128,13 @@ class Simulation {
   [[nodiscard]] StaticStatus static_step(double end_time);
   /// The same, with an early stop as moving once a block is certain to go so far. @param far in block sizes, > 0
   [[nodiscard]] StaticStatus static_step(double end_time, double far);
-  /// The blocks at their present positions as rigid bodies, for limit analysis. @param end_time of the loads, s
+  /// The blocks at their present positions as rigid bodies, for limit analysis; of one rank that has all of them.
+  /// @param end_time of the loads, s
   /// @param multiplied by block: true if its loads are multiplied by a factor; empty: none
   /// @throws std::invalid_argument if a block is incremental
   [[nodiscard]] RigidModel rigid_model(double end_time, const std::vector<bool>& multiplied = {}) const;
-  /// Places blocks elsewhere, at rest and without contacts, as a step of its own: to display the onset of motion.
+  /// Places blocks elsewhere, at rest and without contacts, as a step of its own: to display the onset of motion. On
+  /// several ranks the same on all.
   void displace(const std::vector<RigidDisplacement>& displacements);
   /// Blocks that a static analysis found to be moving, including blocks carried along. On several ranks those of this
   /// one, on the first one after gather_results() those of all.

@@ -26,6 +26,7 @@
 #include "apps/scene/model/support_history.hpp"
 #include "apps/scene/toml/formulas.hpp"
 #include "geometry/boxes/box_pairs.hpp"
+#include "geometry/index.hpp"
 #include "solver/bolts/bolted_blocks.hpp"
 #include "solver/state/automatic.hpp"
 
@@ -309,19 +310,22 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   std::vector<BlockModel> blocks;
   std::vector<InitialMotion> motions;
   BlockPartsLibrary parts;
-  const std::vector<bool> multiplied = multiplied_blocks(scene);
   if (preparation != nullptr && !scene.water.empty()) preparation->phase("pressure of water");
   const auto water = std::make_shared<const WaterLoads>(loaded, diagnostics);
   const auto boundaries = std::make_shared<const QuietBoundaries>(scene, loaded.solids,
                                                                   time_settings(scene.analysis), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
+  const auto define = [&loaded, water, boundaries, multiplied = multiplied_blocks(scene),
+                       factor = factors.load](int block) {
+    const std::size_t k = at(block);
+    return define_block(loaded, k, multiplied[k] ? factor : 1.0, *water, *boundaries);
+  };
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     if (preparation != nullptr)
       preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
-      const double load_factor = multiplied[k] ? factors.load : 1.0;
-      blocks.emplace_back(define_block(loaded, k, load_factor, *water, *boundaries), parts);
+      blocks.emplace_back(define(static_cast<int>(k)), parts);
     } catch (const OrderTooHigh& error) {
       diagnostics.error(
           scene.places.value(fmt::format("block.{}.order", k)),
@@ -349,10 +353,8 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                       "blocks of the incremental formulation cannot be tied");
     return std::nullopt;
   }
-  const BlockLoader again = [&loaded, water, boundaries,
-                             library = std::make_shared<BlockPartsLibrary>()](int block) {
-    return BlockModel(define_block(loaded, static_cast<std::size_t>(block), 1.0, *water, *boundaries),
-                      *library);
+  const BlockLoader again = [define, library = std::make_shared<BlockPartsLibrary>()](int block) {
+    return BlockModel(define(block), *library);
   };
   std::vector<Bolt> bolts;
   if (!scene.bolt.empty() || !scene.prop.empty()) bolts = bolts_of(loaded);

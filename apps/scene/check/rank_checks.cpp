@@ -13,10 +13,7 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
           scene.places.key(key),
           fmt::format("{} on several ranks, only one is allowed so far: run it without mpiexec", what));
   };
-  const SceneAnalysis& analysis = scene.analysis;
-  refuse(analysis.type != SceneAnalysis::Type::dynamic && analysis.type != SceneAnalysis::Type::statics,
-         "analysis.type", "an analysis that is neither dynamic nor static");
-  refuse(analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
+  refuse(scene.analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
 }
 
 }  // namespace ashlar

@@ -7,6 +7,7 @@
 
 #include "apps/results/folder/scene_identity.hpp"
 #include "apps/run/trial_folder.hpp"
+#include "apps/run/trial_run.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar::factor_run_test {
@@ -169,7 +170,8 @@ TEST_F(FactorRun, ATrialThatWasStoppedGoesOn) {
   ASSERT_TRUE(stopped.iterate() && stopped.iterate());
   {
     const auto claim = std::make_shared<const FolderClaim>(folder_ / "half", ClaimPurpose::replacement);
-    TrialFolder(claim, scene_identity(*loaded).scene, false, std::nullopt).save(stopped);
+    TrialFolder(claim, scene_identity(*loaded).scene, false, std::nullopt)
+        .save(stopped.factor(), stopped.state());
   }
   ASSERT_EQ(run("half", {"--resume"}), 0) << faults_;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "half" / trial_state_name));

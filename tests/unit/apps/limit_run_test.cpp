@@ -17,32 +17,6 @@ using ::testing::IsEmpty;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// A stone whose sides lean by 30 degrees, wider at its top, between two fixed ones.
-std::string keystone(const std::string& analysis, const std::string& contact) {
-  return "[analysis]\n" + analysis + "\n[contact]\n" + contact + "\n" + rock_text + R"toml([[block]]
-name = "stone"
-material = "rock"
-hull.points = [
-  [-0.5, 0, 0], [0.5, 0, 0], ["= 0.5 + tan(30*deg)", 0, 1], ["= -0.5 - tan(30*deg)", 0, 1],
-  [-0.5, 1, 0], [0.5, 1, 0], ["= 0.5 + tan(30*deg)", 1, 1], ["= -0.5 - tan(30*deg)", 1, 1]
-]
-[[block]]
-name = "left"
-fixed = true
-hull.points = [
-  [-0.5, 0, 0], ["= -0.5 - tan(30*deg)", 0, 1], [-3, 0, 1], [-3, 0, 0],
-  [-0.5, 1, 0], ["= -0.5 - tan(30*deg)", 1, 1], [-3, 1, 1], [-3, 1, 0]
-]
-[[block]]
-name = "right"
-fixed = true
-hull.points = [
-  [0.5, 0, 0], ["= 0.5 + tan(30*deg)", 0, 1], [3, 0, 1], [3, 0, 0],
-  [0.5, 1, 0], ["= 0.5 + tan(30*deg)", 1, 1], [3, 1, 1], [3, 1, 0]
-]
-)toml";
-}
-
 class LimitRun : public RunCommand {
  protected:
   nlohmann::json summary(const std::string& out) {

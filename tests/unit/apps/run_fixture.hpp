@@ -56,6 +56,32 @@ young_modulus = 1e10
 poisson_ratio = 0.2
 )";
 
+// A stone whose sides lean by 30 degrees, wider at its top, between two fixed ones.
+inline std::string keystone(const std::string& analysis, const std::string& contact) {
+  return "[analysis]\n" + analysis + "\n[contact]\n" + contact + "\n" + rock_text + R"toml([[block]]
+name = "stone"
+material = "rock"
+hull.points = [
+  [-0.5, 0, 0], [0.5, 0, 0], ["= 0.5 + tan(30*deg)", 0, 1], ["= -0.5 - tan(30*deg)", 0, 1],
+  [-0.5, 1, 0], [0.5, 1, 0], ["= 0.5 + tan(30*deg)", 1, 1], ["= -0.5 - tan(30*deg)", 1, 1]
+]
+[[block]]
+name = "left"
+fixed = true
+hull.points = [
+  [-0.5, 0, 0], ["= -0.5 - tan(30*deg)", 0, 1], [-3, 0, 1], [-3, 0, 0],
+  [-0.5, 1, 0], ["= -0.5 - tan(30*deg)", 1, 1], [-3, 1, 1], [-3, 1, 0]
+]
+[[block]]
+name = "right"
+fixed = true
+hull.points = [
+  [0.5, 0, 0], ["= 0.5 + tan(30*deg)", 0, 1], [3, 0, 1], [3, 0, 0],
+  [0.5, 1, 0], ["= 0.5 + tan(30*deg)", 1, 1], [3, 1, 1], [3, 1, 0]
+]
+)toml";
+}
+
 // A plate of 2 m x 2 m x 0.5 m of that rock on a slope of 30 degrees: its weight meets the slope in its middle third.
 inline constexpr const char* plate_text = R"([[block]]
 name = "slope"

@@ -60,14 +60,14 @@ TEST(TrialFolder, OneThatIsStoppedGoesOnWhereItWas) {
   const auto claim = std::make_shared<const FolderClaim>(folder / "out", ClaimPurpose::new_run);
   TrialFolder stored(claim, 7, false, std::nullopt);
   TrialRun first(scene, 1.25, 1);
-  stored.begin(first);
+  EXPECT_FALSE(stored.begin(1.25));
   EXPECT_EQ(iterated(first, 3), 3);
-  stored.save(first);
+  stored.save(1.25, first.state());
   ASSERT_TRUE(std::filesystem::exists(folder / "out" / trial_state_name));
 
   TrialFolder again(claim, 7, true, std::nullopt);
   TrialRun second(scene, 1.25, 1);
-  again.begin(second);
+  second.restore(again.begin(1.25).value());
   EXPECT_EQ(second.iterations(), 3);
   EXPECT_EQ(iterated(second, 1000), whole.iterations() - 3)
       << "those before it was stopped are not run again";
@@ -86,9 +86,9 @@ TEST(TrialFolder, StateOfAnotherFactorOrSceneIsOfNoUse) {
   const auto run = [&](std::uint64_t hash, double factor, int more) {
     TrialFolder stored(claim, hash, true, std::nullopt);
     TrialRun trial(scene, factor, 1);
-    stored.begin(trial);
+    if (const auto state = stored.begin(factor)) trial.restore(*state);
     (void)iterated(trial, more);
-    stored.save(trial);
+    stored.save(factor, trial.state());
     return trial.iterations();
   };
   EXPECT_EQ(run(7, 1.0, 2), 2);
@@ -97,16 +97,14 @@ TEST(TrialFolder, StateOfAnotherFactorOrSceneIsOfNoUse) {
   EXPECT_EQ(run(8, 1.5, 1), 1);
 }
 
-TEST(TrialFolder, StateThatIsDueIsKeptOnTheWay) {
+TEST(TrialFolder, StateIsDueAfterItsInterval) {
   const TemporaryFolder folder;
-  const LoadedScene scene = pushed_stack(folder, "1");
   const auto claim = std::make_shared<const FolderClaim>(folder / "out", ClaimPurpose::new_run);
-  TrialFolder stored(claim, 7, false, 0.0);  // after each iteration
-  TrialRun trial(scene, 1.0, 1);
-  stored.begin(trial);
-  (void)iterated(trial, 1);
-  stored.save_if_due(trial);
-  EXPECT_TRUE(std::filesystem::exists(folder / "out" / trial_state_name));
+  TrialFolder always(claim, 7, false, 0.0), seldom(claim, 7, false, 1e6);
+  EXPECT_FALSE(always.begin(1.0));
+  EXPECT_FALSE(seldom.begin(1.0));
+  EXPECT_TRUE(always.due());
+  EXPECT_FALSE(seldom.due());
 }
 
 TEST(ContactChanges, ThePairThatChangesMostIsNamed) {
