@@ -215,36 +215,28 @@ TEST(SharedSimulation, TheFirstRankKnowsTheBrokenJointsOfAll) {
     }
     return areas;
   };
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation alone(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
-  ASSERT_TRUE(advance(alone, 20));
-  EXPECT_GT(areas_of(alone)[1], 0.1);
-  run_on_threads(2, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    Simulation simulation(
-        share_blocks(own, owners_of(scene, 2), load, scene.settings, {}, nullptr, own.own() == 0),
-        scene.motions, test_support::same_law(scene.law), scene.settings);
-    ASSERT_TRUE(advance(simulation, 10));
-    simulation.gather_results();
-    ASSERT_TRUE(advance(simulation, 20));
-    simulation.gather_results();
-    if (own.own() != 0) return;
-    EXPECT_NEAR(areas_of(simulation)[0], areas_of(alone)[0], 1e-9);
-    EXPECT_NEAR(areas_of(simulation)[1], areas_of(alone)[1], 1e-9);
+  const std::array<double, 2> alone = run_alone(scene, [&](Simulation& simulation) {
+    EXPECT_TRUE(advance(simulation, 20));
+    return areas_of(simulation);
   });
+  EXPECT_GT(alone[1], 0.1);
+  const std::array<double, 2> shared = run_shared(scene, owners_of(scene, 2), 2, [&](Simulation& simulation) {
+    EXPECT_TRUE(advance(simulation, 10));
+    simulation.gather_results();
+    EXPECT_TRUE(advance(simulation, 20));
+    simulation.gather_results();
+    return areas_of(simulation);
+  });
+  EXPECT_NEAR(shared[0], alone[0], 1e-9);
+  EXPECT_NEAR(shared[1], alone[1], 1e-9);
 }
 
 TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
   const Scene scene = wall(3, 4);
-  run_on_threads(2, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    Simulation simulation(
-        share_blocks(own, owners_of(scene, 2), load, scene.settings, {}, nullptr, own.own() == 0),
-        scene.motions, test_support::same_law(scene.law), scene.settings);
+  (void)run_shared(scene, owners_of(scene, 2), 2, [&](Simulation& simulation) {
     ASSERT_TRUE(advance(simulation, 20));
     simulation.gather_results();
-    if (own.own() != 0) return;
+    if (simulation.system().share()->ranks().own() != 0) return;
     const End alone = run_alone(scene, 20);
     EXPECT_EQ(simulation.contacts().size(), alone.contacts.size());
     EXPECT_EQ(simulation.unknowns(), alone.totals.unknowns);
@@ -373,7 +365,7 @@ TEST(SharedSimulation, TiedBlocksOfSeveralRanksFallAlike) {
 TEST(SharedSimulation, BlocksUnderStressStartAlike) {
   for (const bool augmented : {false, true}) {
     Scene scene = wall(3, 6);
-    scene.stressed = true;
+    scene.start = [](Simulation& simulation) { simulation.start_stressed(); };
     scene.settings.augmented = augmented;
     for (BlockDefinition& block : scene.blocks)
       block.initial_stress = [](const Vector3& place) -> Eigen::Matrix3d {
