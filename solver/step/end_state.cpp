@@ -168,7 +168,7 @@ RejectionCause cause_here(const BlockSystem& system, const RunState& state, cons
 
 RejectionCause cause_of_failure(const BlockSystem& system, const RunState& state, const StepProblem& problem,
                                 IslandStatus status) {
-  const RejectionCause here = cause_here(system, state, problem, status);
+  RejectionCause here = cause_here(system, state, problem, status);
   if (system.share() == nullptr) return here;
   const std::vector<RejectionCause> causes = values_of_ranks(system.share()->ranks(), here);
   for (const RejectionCause& cause : causes)

@@ -179,15 +179,6 @@ void validate(const std::vector<Island>& islands, const std::vector<bool>& movin
   }
 }
 
-std::vector<PairKey> contacts_of(const Island& island, const std::vector<ContactPair>& pairs) {
-  std::vector<PairKey> result;
-  for (const int index : island.pairs) {
-    const ContactPair& pair = pairs[at(index)];
-    if (!pair.tied()) result.push_back({pair.a(), pair.b()});
-  }
-  return result;
-}
-
 IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep>& bodies,
                                 const std::vector<ContactPair>& pairs, SystemRole role,
                                 IslandSolvers& solvers) {

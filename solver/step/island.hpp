@@ -145,9 +145,6 @@ struct Island {
 void validate(const std::vector<Island>& islands, const std::vector<bool>& moving,
               const std::vector<ContactPair>& pairs);
 
-/// Pairs of blocks of an island's contacts, ties left out.
-[[nodiscard]] std::vector<PairKey> contacts_of(const Island& island, const std::vector<ContactPair>& pairs);
-
 /// Purpose of a system; each keeps its own factor.
 enum class SystemRole { step, stop };
 /// The solver of an island's system.

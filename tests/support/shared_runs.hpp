@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "geometry/index.hpp"
 #include "solver/ranks/thread_ranks.hpp"
+#include "solver/run/checkpoint.hpp"
 #include "solver/run/gathered_run.hpp"
 #include "support/simulations.hpp"
 
@@ -17,11 +21,13 @@ namespace ashlar::test_support {
 
 struct Scene {
   std::vector<BlockDefinition> blocks;
-  std::vector<InitialMotion> motions;
+  std::vector<InitialMotion> motions;  ///< by block; empty: all are at rest
   JointLaw law;
   SimulationSettings settings;
   std::vector<TieRequest> ties = {};
-  bool stressed = false;  ///< starts with the initial stress of its blocks
+  std::vector<bool> absent = {};  ///< by block; empty: none
+  /// Called with each new simulation, on all ranks: initial stress, overlaps, bolts. Empty: nothing
+  std::function<void(Simulation&)> start = {};
 };
 
 inline JointLaw joint(double friction) {
@@ -116,30 +122,109 @@ inline End end_of(const Simulation& simulation) {
           simulation.largest_step_residual()};
 }
 
-inline End run_alone(const Scene& scene, int steps) {
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings, scene.ties);
-  if (scene.stressed) simulation.start_stressed();
-  EXPECT_TRUE(advance(simulation, steps));
-  return end_of(simulation);
+/// Called on each rank with its blocks before its simulation is made; empty: nothing.
+using Preparation = std::function<void(SharedBlocks&)>;
+
+/// Blocks may get other owners. @param steps from one look at the balance to the next
+inline Preparation looking_each(int steps, Partition partition = partition_by_place) {
+  return [=](SharedBlocks& shared) { shared.balance = {partition, 0.2, steps}; };
 }
 
-/// @param prepare called on each rank before its simulation is made; empty: nothing
-inline End run_shared(const Scene& scene, const std::vector<int>& owners, int ranks, int steps,
-                      const std::function<void(SharedBlocks&)>& prepare = {}) {
-  End end;
+/// Blocks of all ranks on the first one, or some.
+enum class FirstRank {
+  has_all_models,  ///< so that it may gather all results
+  has_its_own,     ///< and ghosts, as any other
+};
+
+inline std::vector<InitialMotion> motions_of(const Scene& scene) {
+  return scene.motions.empty() ? std::vector<InitialMotion>(scene.blocks.size()) : scene.motions;
+}
+
+inline Simulation simulation_alone(const Scene& scene) {
+  std::vector<BlockModel> blocks;
+  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
+  Simulation simulation(std::move(blocks), motions_of(scene), same_law(scene.law), scene.settings, scene.ties,
+                        scene.absent);
+  if (scene.start) scene.start(simulation);
+  return simulation;
+}
+
+/// The part of one rank. Collective. @param owners by block
+inline Simulation simulation_on(Ranks& ranks, const Scene& scene, const std::vector<int>& owners,
+                                const Preparation& prepare = {},
+                                FirstRank first = FirstRank::has_all_models) {
+  const auto load = [all = scene.blocks](int block) { return BlockModel(all[at(block)]); };
+  const bool has_all = ranks.own() == 0 && first == FirstRank::has_all_models;
+  BlocksOfRank blocks =
+      share_blocks(ranks, owners, load, scene.settings, scene.absent, nullptr, has_all, scene.ties);
+  if (prepare) prepare(*blocks.shared);
+  Simulation simulation(std::move(blocks), motions_of(scene), same_law(scene.law), scene.settings,
+                        scene.ties);
+  if (scene.start) scene.start(simulation);
+  return simulation;
+}
+
+/// The value of a program on the first of some ranks. @param program called on each, a thread of its own
+template <class Program>
+auto on_first_of(int ranks, const Program& program) {
+  std::invoke_result_t<const Program&, Ranks&> result{};
   run_on_threads(ranks, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    BlocksOfRank blocks = share_blocks(own, owners, load, scene.settings, {}, nullptr, false, scene.ties);
-    if (prepare) prepare(*blocks.shared);
-    Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings, scene.ties);
-    if (scene.stressed) simulation.start_stressed();
-    EXPECT_TRUE(advance(simulation, steps));
-    End here = end_of(simulation);
-    if (own.own() == 0) end = std::move(here);
+    auto here = program(own);
+    if (own.own() == 0) result = std::move(here);
   });
-  return end;
+  return result;
+}
+
+/// The value of a run; of one that has none, the end of its simulation. @param run called with the simulation
+template <class Run>
+auto end_after(const Run& run, Simulation& simulation) {
+  if constexpr (std::is_void_v<std::invoke_result_t<const Run&, Simulation&>>) {
+    run(simulation);
+    return end_of(simulation);
+  } else {
+    return run(simulation);
+  }
+}
+
+inline auto steps_to(int last) {
+  return [last](Simulation& simulation) { EXPECT_TRUE(advance(simulation, last)); };
+}
+
+/// @return end_after() without ranks
+template <class Run>
+auto run_alone(const Scene& scene, const Run& run) {
+  Simulation simulation = simulation_alone(scene);
+  return end_after(run, simulation);
+}
+
+inline End run_alone(const Scene& scene, int steps) {
+  return run_alone(scene, steps_to(steps));
+}
+
+/// @return end_after() of the first rank, which has the models of all blocks. @param run called on each rank
+template <class Run>
+auto run_shared(const Scene& scene, const std::vector<int>& owners, int ranks, const Run& run,
+                const Preparation& prepare = {}) {
+  return on_first_of(ranks, [&](Ranks& own) {
+    Simulation simulation = simulation_on(own, scene, owners, prepare);
+    return end_after(run, simulation);
+  });
+}
+
+/// No rank has the models of all blocks.
+inline End run_shared(const Scene& scene, const std::vector<int>& owners, int ranks, int steps,
+                      const Preparation& prepare = {}) {
+  return on_first_of(ranks, [&](Ranks& own) {
+    Simulation simulation = simulation_on(own, scene, owners, prepare, FirstRank::has_its_own);
+    return end_after(steps_to(steps), simulation);
+  });
+}
+
+/// The snapshot of a run that ranks share, in bytes; empty on all but the first rank. Collective.
+inline std::string stored_snapshot(Simulation& simulation) {
+  simulation.gather_results();
+  const SimulationSnapshot snapshot = simulation.snapshot();
+  return simulation.system().share()->ranks().own() == 0 ? to_bytes(snapshot) : std::string();
 }
 
 /// Largest difference of positions, m.

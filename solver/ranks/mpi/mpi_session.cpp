@@ -32,6 +32,7 @@ MpiSession::MpiSession(const std::vector<std::string>& options) {
   std::vector<std::string> words = {"ashlar", "-no_signal_handler"};
   words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   int count = static_cast<int>(words.size());
@@ -58,6 +59,7 @@ std::vector<std::string> MpiSession::unused_options() {
   char** values = nullptr;
   check_petsc(PetscOptionsLeftGet(nullptr, &count, &names, &values));
   std::vector<std::string> unused;
+  unused.reserve(static_cast<std::size_t>(count));
   for (PetscInt k = 0; k < count; ++k) unused.push_back(std::string("-") + names[k]);
   check_petsc(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
   return unused;

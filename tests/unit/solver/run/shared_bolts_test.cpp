@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "solver/run/checkpoint.hpp"
-#include "solver/step/rank_balance.hpp"
 #include "support/shared_runs.hpp"
 
 namespace ashlar::shared_bolts_test {
@@ -13,12 +14,16 @@ namespace {
 
 using test_support::advance;
 using test_support::block_of;
+using test_support::distance;
 using test_support::end_of;
 using test_support::fixed_box;
 using test_support::joint;
+using test_support::looking_each;
+using test_support::run_alone;
+using test_support::run_shared;
 using test_support::run_static;
-using test_support::same_law;
 using test_support::Scene;
+using test_support::stored_snapshot;
 
 constexpr double gravity = 9.81;
 const Material rock{2500.0, 1e10, 0.2};
@@ -37,25 +42,13 @@ Bolt bar(int block_a, const Vector3& from, int block_b, const Vector3& to, const
   return {"bar", BoltChain(law, BoltShape(law, from, to, spans, 0.02), {true, true}), true};
 }
 
-struct Bolted {
-  Scene scene;
+/// A scene with bolts.
+struct Bolted : Scene {
   std::vector<Bolt> bolts;
 
-  [[nodiscard]] Simulation alone() const {
-    std::vector<BlockModel> blocks;
-    for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-    Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings);
-    simulation.add_bolts(bolts);
-    return simulation;
-  }
-  [[nodiscard]] Simulation shared(Ranks& ranks, const std::vector<int>& owners,
-                                  const Rebalancing& balance = {}) const {
-    const auto load = [this](int block) { return BlockModel(scene.blocks[at(block)]); };
-    BlocksOfRank blocks = share_blocks(ranks, owners, load, scene.settings, {}, nullptr, ranks.own() == 0);
-    blocks.shared->balance = balance;
-    Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings);
-    simulation.add_bolts(bolts);
-    return simulation;
+  void add(Bolt bolt) {
+    bolts.push_back(std::move(bolt));
+    start = [all = bolts](Simulation& simulation) { simulation.add_bolts(all); };
   }
 };
 
@@ -71,36 +64,30 @@ BoltedEnd end_with_bolts(Simulation& simulation) {
   return {std::move(run), simulation.bolts()};
 }
 
-/// @param run called on each rank. @return end of the first one
-template <class Run>
-BoltedEnd on_ranks(const Bolted& bolted, const std::vector<int>& owners, int ranks, const Run& run,
-                   const Rebalancing& balance = {}) {
-  BoltedEnd end;
-  run_on_threads(ranks, [&](Ranks& own) {
-    Simulation simulation = bolted.shared(own, owners, balance);
-    run(simulation);
-    BoltedEnd here = end_with_bolts(simulation);
-    if (own.own() == 0) end = std::move(here);
-  });
-  return end;
+BoltedEnd advance_bolted(Simulation& simulation, int steps) {
+  EXPECT_TRUE(advance(simulation, steps));
+  return end_with_bolts(simulation);
+}
+
+auto bolted_to(int steps) {
+  return [steps](Simulation& simulation) { return advance_bolted(simulation, steps); };
 }
 
 /// Blocks of 1 m^3 in a row below a fixed roof, 1 m from each other and out of contact, each hung on the one above by
 /// four bars.
 Bolted hanging(int count, const BoltLaw& law) {
   Bolted bolted;
-  Scene& scene = bolted.scene;
-  scene.law = joint(0.5);
-  scene.settings.time_step = 1e-3;
-  scene.settings.gravity = {0, 0, -gravity};
-  scene.blocks.push_back(fixed_box({-1, -1, 0}, {2, 2, 1}));
+  bolted.law = joint(0.5);
+  bolted.settings.time_step = 1e-3;
+  bolted.settings.gravity = {0, 0, -gravity};
+  bolted.blocks.push_back(fixed_box({-1, -1, 0}, {2, 2, 1}));
   for (int k = 0; k < count; ++k) {
     const double top = -1.0 - 2.0 * k;
-    scene.blocks.push_back(block_of("block", Polyhedron(make_box({0, 0, top - 1.0}, {1, 1, top})), rock, 1));
+    bolted.blocks.push_back(block_of("block", Polyhedron(make_box({0, 0, top - 1.0}, {1, 1, top})), rock, 1));
     for (const auto& [x, y] : {std::pair(0.1, 0.1), {0.9, 0.1}, {0.1, 0.9}, {0.9, 0.9}})
-      bolted.bolts.push_back(bar(k, {x, y, top + 1.0}, k + 1, {x, y, top}, law));
+      bolted.add(bar(k, {x, y, top + 1.0}, k + 1, {x, y, top}, law));
   }
-  scene.motions.resize(scene.blocks.size());
+  bolted.motions.resize(bolted.blocks.size());
   return bolted;
 }
 
@@ -108,12 +95,11 @@ Bolted hanging(int count, const BoltLaw& law) {
 /// between their tops, of which one moves towards the other. The grout slips, and the joints slide.
 Bolted pinned_columns(int blocks) {
   Bolted bolted;
-  Scene& scene = bolted.scene;
-  scene.law = joint(0.2);
-  scene.settings.time_step = 1e-3;
-  scene.settings.contact_distance = 2e-3;
-  scene.settings.gravity = {3.0, 0.5, -gravity};
-  scene.blocks.push_back(fixed_box({-1, -1, -2}, {5, 2, 0}));
+  bolted.law = joint(0.2);
+  bolted.settings.time_step = 1e-3;
+  bolted.settings.contact_distance = 2e-3;
+  bolted.settings.gravity = {3.0, 0.5, -gravity};
+  bolted.blocks.push_back(fixed_box({-1, -1, -2}, {5, 2, 0}));
   BoltLaw law = elastic(1e8);
   law.anchorage = BoltAnchorage::grouted;
   law.bond_stiffness = 1e9;
@@ -124,22 +110,22 @@ Bolted pinned_columns(int blocks) {
     const double x = 3.0 * column;
     std::vector<BoltSpan> spans;
     for (int k = 0; k < blocks; ++k) {
-      scene.blocks.push_back(block_of("block", Polyhedron(make_box({x, 0, 1.0 * k}, {x + 1.0, 1, k + 1.0})),
-                                      rock, k == 1 ? 2 : 1));
-      const int block = static_cast<int>(scene.blocks.size()) - 1;
+      bolted.blocks.push_back(block_of("block", Polyhedron(make_box({x, 0, 1.0 * k}, {x + 1.0, 1, k + 1.0})),
+                                       rock, k == 1 ? 2 : 1));
+      const int block = static_cast<int>(bolted.blocks.size()) - 1;
       spans.insert(spans.begin(), {block, 2, 1.0 * (blocks - 1 - k), 1.0 * (blocks - k)});
     }
     spans.push_back({0, 1, 1.0 * blocks, blocks + 1.0});
-    bolted.bolts.push_back(
+    bolted.add(
         {"grouted",
          BoltChain(law, BoltShape(law, {x + 0.4, 0.5, 1.0 * blocks}, {x + 0.4, 0.5, -1.0}, spans, 0.03),
                    std::vector<bool>(spans.size(), true)),
          true});
   }
   const double top = blocks - 0.5;
-  bolted.bolts.push_back(bar(blocks, {1, 0.5, top}, 2 * blocks, {3, 0.5, top}, elastic(1e7)));
-  scene.motions.resize(scene.blocks.size());
-  scene.motions[at(blocks)].velocity = {0.1, 0.0, 0.0};
+  bolted.add(bar(blocks, {1, 0.5, top}, 2 * blocks, {3, 0.5, top}, elastic(1e7)));
+  bolted.motions.resize(bolted.blocks.size());
+  bolted.motions[at(blocks)].velocity = {0.1, 0.0, 0.0};
   return bolted;
 }
 
@@ -151,7 +137,7 @@ std::vector<int> in_turn(std::size_t blocks, int ranks) {
 }
 
 void expect_same(const BoltedEnd& one, const BoltedEnd& other, double tolerance) {
-  EXPECT_LE(test_support::distance(one.run, other.run), tolerance);
+  EXPECT_LE(distance(one.run, other.run), tolerance);
   ASSERT_EQ(one.bolts.size(), other.bolts.size());
   for (std::size_t k = 0; k < one.bolts.size(); ++k) {
     const double force = std::abs(largest_axial_force(one.bolts[k]));
@@ -172,13 +158,11 @@ TEST(SharedBolts, BarsOfBlocksOfOtherRanksCarryTheWeightBelow) {
   const Bolted bolted = hanging(2, elastic(1e7));
   const double share = 2500.0 * gravity / 4.0;
   for (const std::vector<int>& owners : {std::vector<int>{0, 1, 2}, {2, 0, 1}, {1, 1, 0}}) {
-    StaticStatus status = StaticStatus::balancing;
-    const BoltedEnd end = on_ranks(bolted, owners, 3, [&](Simulation& simulation) {
+    const BoltedEnd end = run_shared(bolted, owners, 3, [](Simulation& simulation) {
       EXPECT_TRUE(simulation.loose_blocks().empty());
-      const StaticStatus here = run_static(simulation, 1.0);
-      if (simulation.system().share()->ranks().own() == 0) status = here;
+      EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+      return end_with_bolts(simulation);
     });
-    EXPECT_EQ(status, StaticStatus::equilibrium);
     ASSERT_EQ(end.bolts.size(), 8U);
     for (std::size_t k = 0; k < 8; ++k) {
       const double expected = k < 4 ? 2.0 * share : share;
@@ -192,15 +176,10 @@ TEST(SharedBolts, BarsOfBlocksOfOtherRanksCarryTheWeightBelow) {
 
 TEST(SharedBolts, AMotionIsThatOfOneRank) {
   const Bolted bolted = pinned_columns(3);
-  Simulation alone = bolted.alone();
-  ASSERT_TRUE(advance(alone, 60));
-  const BoltedEnd one = end_with_bolts(alone);
+  const BoltedEnd one = run_alone(bolted, bolted_to(60));
   EXPECT_NE(condition_of(bolted.bolts[0], one.bolts[0]), BoltCondition::elastic);
-  for (const int ranks : {2, 3}) {
-    const BoltedEnd end = on_ranks(bolted, in_turn(bolted.scene.blocks.size(), ranks), ranks,
-                                   [](Simulation& simulation) { EXPECT_TRUE(advance(simulation, 60)); });
-    expect_same(one, end, 1e-9);
-  }
+  for (const int ranks : {2, 3})
+    expect_same(one, run_shared(bolted, in_turn(bolted.blocks.size(), ranks), ranks, bolted_to(60)), 1e-9);
 }
 
 TEST(SharedBolts, ABarRupturesOnceForAllRanks) {
@@ -208,52 +187,37 @@ TEST(SharedBolts, ABarRupturesOnceForAllRanks) {
   law.yield_force = 0.3 * 2500.0 * gravity;
   law.rupture_strain = 0.02;
   const Bolted bolted = hanging(2, law);
-  Simulation alone = bolted.alone();
-  ASSERT_TRUE(advance(alone, 150));
-  const BoltedEnd one = end_with_bolts(alone);
-  const BoltedEnd end =
-      on_ranks(bolted, {0, 1, 2}, 3, [](Simulation& simulation) { EXPECT_TRUE(advance(simulation, 150)); });
+  const BoltedEnd one = run_alone(bolted, bolted_to(150));
+  const BoltedEnd end = run_shared(bolted, {0, 1, 2}, 3, bolted_to(150));
   EXPECT_EQ(condition_of(bolted.bolts[0], end.bolts[0]), BoltCondition::ruptured);
   expect_same(one, end, 1e-9);
   // In statics it cannot stand either.
-  (void)on_ranks(bolted, {0, 1, 2}, 3, [](Simulation& simulation) {
+  (void)run_shared(bolted, {0, 1, 2}, 3, [](Simulation& simulation) {
     EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
   });
 }
 
 TEST(SharedBolts, ACheckpointGoesOnWithAnyNumberOfRanks) {
   const Bolted bolted = pinned_columns(3);
-  Simulation alone = bolted.alone();
-  ASSERT_TRUE(advance(alone, 40));
-  const BoltedEnd one = end_with_bolts(alone);
-  std::string stored;
-  const std::size_t blocks = bolted.scene.blocks.size();
-  (void)on_ranks(bolted, in_turn(blocks, 3), 3, [&](Simulation& simulation) {
+  const BoltedEnd one = run_alone(bolted, bolted_to(40));
+  const std::size_t blocks = bolted.blocks.size();
+  const std::string stored = run_shared(bolted, in_turn(blocks, 3), 3, [](Simulation& simulation) {
     EXPECT_TRUE(advance(simulation, 20));
-    simulation.gather_results();
-    const SimulationSnapshot snapshot = simulation.snapshot();
-    if (simulation.system().share()->ranks().own() == 0) stored = to_bytes(snapshot);
+    return stored_snapshot(simulation);
   });
   const auto go_on = [&](Simulation& simulation) {
     simulation.restore(snapshot_from_bytes(stored));
-    EXPECT_TRUE(advance(simulation, 40));
+    return advance_bolted(simulation, 40);
   };
-  Simulation resumed = bolted.alone();
-  go_on(resumed);
-  expect_same(one, end_with_bolts(resumed), 1e-9);
-  expect_same(one, on_ranks(bolted, in_turn(blocks, 2), 2, go_on), 1e-9);
+  expect_same(one, run_alone(bolted, go_on), 1e-9);
+  expect_same(one, run_shared(bolted, in_turn(blocks, 2), 2, go_on), 1e-9);
 }
 
 TEST(SharedBolts, GoWithTheirBlocksToOtherRanks) {
   const Bolted bolted = pinned_columns(3);
-  Simulation alone = bolted.alone();
-  ASSERT_TRUE(advance(alone, 40));
-  const BoltedEnd one = end_with_bolts(alone);
   // All blocks but one belong to the first rank. Columns are asked for later.
   const std::vector<int> columns = {0, 0, 0, 0, 1, 1, 1};
-  Rebalancing balance;
-  balance.interval = 20;
-  balance.partition = [&](Ranks&, const std::vector<PartitionBlock>& own, int) {
+  const auto partition = [&](Ranks&, const std::vector<PartitionBlock>& own, int) {
     // A bolt joins blocks that do not touch.
     for (const PartitionBlock& block : own) {
       const std::vector<int>& others = block.neighbours;
@@ -261,33 +225,28 @@ TEST(SharedBolts, GoWithTheirBlocksToOtherRanks) {
     }
     return columns;
   };
-  const BoltedEnd end = on_ranks(
-      bolted, {0, 0, 0, 0, 0, 0, 1}, 2, [](Simulation& simulation) { EXPECT_TRUE(advance(simulation, 40)); },
-      balance);
+  const BoltedEnd end =
+      run_shared(bolted, {0, 0, 0, 0, 0, 0, 1}, 2, bolted_to(40), looking_each(20, partition));
   EXPECT_EQ(end.run.work[0].repartitions, 1);
-  expect_same(one, end, 1e-9);
+  expect_same(run_alone(bolted, bolted_to(40)), end, 1e-9);
 }
 
 TEST(SharedBolts, BoltedBlocksOfTwoRanksSleepTogether) {
   Bolted bolted = hanging(2, elastic(1e7));
-  bolted.scene.settings.contact_distance = 2e-3;
-  bolted.scene.settings.mass_damping = 20.0;
-  const auto rest = [](Simulation& simulation) { EXPECT_TRUE(advance(simulation, 1500)); };
-  const BoltedEnd end = on_ranks(bolted, {0, 1, 0}, 2, rest);
+  bolted.settings.contact_distance = 2e-3;
+  bolted.settings.mass_damping = 20.0;
+  const BoltedEnd end = run_shared(bolted, {0, 1, 0}, 2, bolted_to(1500));
   EXPECT_EQ(end.run.totals.counts.islands_put_to_sleep, 1U);
-  Simulation alone = bolted.alone();
-  rest(alone);
-  const BoltedEnd one = end_with_bolts(alone);
+  const BoltedEnd one = run_alone(bolted, bolted_to(1500));
   EXPECT_EQ(one.run.totals.counts.sleeping_block_steps, end.run.totals.counts.sleeping_block_steps);
   EXPECT_NEAR(one.run.totals.ledger.contact, end.run.totals.ledger.contact,
               1e-9 * one.run.totals.ledger.contact);
 }
 
 TEST(SharedBolts, MotionFromEquilibriumStaysAtRest) {
-  const Bolted bolted = hanging(2, elastic(1e7));
-  const BoltedEnd end = on_ranks(bolted, {0, 1, 0}, 2, [](Simulation& simulation) {
+  const BoltedEnd end = run_shared(hanging(2, elastic(1e7)), {0, 1, 0}, 2, [](Simulation& simulation) {
     EXPECT_EQ(simulation.start_from_statics(), StaticStatus::equilibrium);
-    EXPECT_TRUE(advance(simulation, 50));
+    return advance_bolted(simulation, 50);
   });
   const double share = 2500.0 * gravity / 4.0;
   EXPECT_NEAR(end.bolts[0].axial[0], 2.0 * share, 2e-4 * share);

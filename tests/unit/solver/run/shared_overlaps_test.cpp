@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "geometry/boxes/box_pairs.hpp"
-#include "solver/run/checkpoint.hpp"
 #include "support/shared_runs.hpp"
 
 namespace ashlar::shared_overlaps_test {
@@ -13,15 +13,28 @@ namespace {
 
 using test_support::advance;
 using test_support::block_of;
+using test_support::distance;
 using test_support::End;
-using test_support::end_of;
 using test_support::fixed_box;
 using test_support::joint;
+using test_support::owners_of;
+using test_support::run_alone;
+using test_support::run_shared;
 using test_support::run_static;
-using test_support::same_law;
 using test_support::Scene;
+using test_support::steps_to;
+using test_support::stored_snapshot;
 
 constexpr double depth = 1e-3;
+
+/// Pairs whose boxes meet may overlap by twice the depth.
+std::map<PairKey, double> depths_of(const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const BlockDefinition& block : scene.blocks) boxes.push_back(box_of(block.solid->mesh().points));
+  std::map<PairKey, double> depths;
+  for (const PairKey& pair : meeting_boxes(boxes)) depths[pair] = 2.0 * depth;
+  return depths;
+}
 
 /// Columns of cubes of 0.5 m beside each other on a fixed base, each cube 1 mm in the one below.
 Scene columns() {
@@ -40,58 +53,23 @@ Scene columns() {
   }
   scene.motions.resize(scene.blocks.size());
   scene.motions[9].velocity = {0.2, 0.0, 0.0};
+  scene.start = [depths = depths_of(scene)](Simulation& simulation) { simulation.start_overlapping(depths); };
   return scene;
-}
-
-/// Pairs whose boxes meet may overlap by twice the depth.
-std::map<PairKey, double> depths_of(const Scene& scene) {
-  std::vector<Box> boxes;
-  for (const BlockDefinition& block : scene.blocks) boxes.push_back(box_of(block.solid->mesh().points));
-  std::map<PairKey, double> depths;
-  for (const PairKey& pair : meeting_boxes(boxes)) depths[pair] = 2.0 * depth;
-  return depths;
-}
-
-template <class Run>
-End alone(const Scene& scene, const Run& run) {
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings);
-  simulation.start_overlapping(depths_of(scene));
-  run(simulation);
-  return end_of(simulation);
-}
-
-template <class Run>
-End shared(const Scene& scene, const std::vector<int>& owners, int ranks, const Run& run) {
-  End end;
-  run_on_threads(ranks, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    Simulation simulation(share_blocks(own, owners, load, scene.settings, {}, nullptr, own.own() == 0),
-                          scene.motions, same_law(scene.law), scene.settings);
-    simulation.start_overlapping(depths_of(scene));
-    run(simulation);
-    End here = end_of(simulation);
-    if (own.own() == 0) end = std::move(here);
-  });
-  return end;
 }
 
 const std::vector<int> in_turn = {0, 1, 0, 1, 1, 0, 1, 0, 1, 0};
 
 TEST(SharedOverlaps, AMotionIsThatOfOneRank) {
   const Scene scene = columns();
-  const auto run = [](Simulation& simulation) { EXPECT_TRUE(advance(simulation, 60)); };
-  const End one = alone(scene, run);
+  const End one = run_alone(scene, 60);
   // Gaps are relative to the overlap: without it the cubes would be pushed up by most of it.
   EXPECT_LT(one.totals.report.penetration, 0.1 * depth);
-  EXPECT_LT(test_support::distance(one, shared(scene, in_turn, 2, run)), 1e-9);
-  EXPECT_LT(test_support::distance(one, shared(scene, test_support::owners_of(scene, 3), 3, run)), 1e-9);
+  EXPECT_LT(distance(one, run_shared(scene, in_turn, 2, steps_to(60))), 1e-9);
+  EXPECT_LT(distance(one, run_shared(scene, owners_of(scene, 3), 3, steps_to(60))), 1e-9);
 }
 
 TEST(SharedOverlaps, AllRanksKnowThem) {
-  const Scene scene = columns();
-  (void)shared(scene, in_turn, 2, [](Simulation& simulation) {
+  (void)run_shared(columns(), in_turn, 2, [](Simulation& simulation) {
     // 6 between cubes and 3 with the base.
     EXPECT_EQ(simulation.histories().size(), 9U);
     for (const auto& [blocks, pair] : simulation.histories()) EXPECT_NEAR(pair.overlap, depth, 1e-12);
@@ -100,30 +78,26 @@ TEST(SharedOverlaps, AllRanksKnowThem) {
 
 TEST(SharedOverlaps, EquilibriaAndCheckpointsKeepThem) {
   Scene scene = columns();
-  scene.motions.assign(scene.blocks.size(), {});
+  scene.motions.clear();
   const auto stand = [](Simulation& simulation) {
     EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
   };
-  EXPECT_LT(test_support::distance(alone(scene, stand), shared(scene, in_turn, 2, stand)), 1e-7);
-  std::string stored;
-  (void)shared(scene, in_turn, 2, [&](Simulation& simulation) {
+  EXPECT_LT(distance(run_alone(scene, stand), run_shared(scene, in_turn, 2, stand)), 1e-7);
+  const std::string stored = run_shared(scene, in_turn, 2, [&](Simulation& simulation) {
     EXPECT_TRUE(advance(simulation, 10));
-    simulation.gather_results();
-    const SimulationSnapshot snapshot = simulation.snapshot();
-    if (simulation.system().share()->ranks().own() > 0) return;
-    const auto overlaps = std::count_if(snapshot.run.pairs.begin(), snapshot.run.pairs.end(),
-                                        [](const auto& entry) { return entry.second.overlap > 0.0; });
-    EXPECT_EQ(overlaps, 9);
-    stored = to_bytes(snapshot);
+    return stored_snapshot(simulation);
   });
+  const SimulationSnapshot snapshot = snapshot_from_bytes(stored);
+  const auto overlaps = std::count_if(snapshot.run.pairs.begin(), snapshot.run.pairs.end(),
+                                      [](const auto& entry) { return entry.second.overlap > 0.0; });
+  EXPECT_EQ(overlaps, 9);
   const auto go_on = [&](Simulation& simulation) {
-    simulation.restore(snapshot_from_bytes(stored));
+    simulation.restore(snapshot);
     EXPECT_TRUE(advance(simulation, 30));
   };
-  const auto all = [](Simulation& simulation) { EXPECT_TRUE(advance(simulation, 30)); };
-  const End one = alone(scene, all);
-  EXPECT_LT(test_support::distance(one, alone(scene, go_on)), 1e-9);
-  EXPECT_LT(test_support::distance(one, shared(scene, {2, 1, 0, 1, 2, 0, 1, 2, 1, 0}, 3, go_on)), 1e-9);
+  const End one = run_alone(scene, 30);
+  EXPECT_LT(distance(one, run_alone(scene, go_on)), 1e-9);
+  EXPECT_LT(distance(one, run_shared(scene, {2, 1, 0, 1, 2, 0, 1, 2, 1, 0}, 3, go_on)), 1e-9);
 }
 
 }  // namespace

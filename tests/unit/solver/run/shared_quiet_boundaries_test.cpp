@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "solver/run/checkpoint.hpp"
 #include "support/shared_runs.hpp"
 
 namespace ashlar::shared_quiet_boundaries_test {
@@ -12,12 +11,15 @@ namespace {
 
 using test_support::advance;
 using test_support::block_of;
+using test_support::distance;
 using test_support::End;
-using test_support::end_of;
 using test_support::joint;
+using test_support::looking_each;
+using test_support::run_alone;
+using test_support::run_shared;
 using test_support::run_static;
-using test_support::same_law;
 using test_support::Scene;
+using test_support::stored_snapshot;
 
 /// lambda = mu = 8e7 Pa.
 const Material soil{2000.0, 2e8, 0.25};
@@ -48,31 +50,6 @@ Scene ground(Integrator integrator) {
   return scene;
 }
 
-template <class Run>
-End alone(const Scene& scene, const Run& run) {
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings);
-  run(simulation);
-  return end_of(simulation);
-}
-
-template <class Run>
-End shared(const Scene& scene, const std::vector<int>& owners, int ranks, const Run& run,
-           const Rebalancing& balance = {}) {
-  End end;
-  run_on_threads(ranks, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    BlocksOfRank blocks = share_blocks(own, owners, load, scene.settings, {}, nullptr, own.own() == 0);
-    blocks.shared->balance = balance;
-    Simulation simulation(std::move(blocks), scene.motions, same_law(scene.law), scene.settings);
-    run(simulation);
-    End here = end_of(simulation);
-    if (own.own() == 0) end = std::move(here);
-  });
-  return end;
-}
-
 /// 60 steps, in which the wave passes, from equilibrium.
 void shake(Simulation& simulation) {
   ASSERT_EQ(simulation.start_from_statics(), StaticStatus::equilibrium);
@@ -80,7 +57,7 @@ void shake(Simulation& simulation) {
 }
 
 void expect_same(const End& one, const End& other) {
-  EXPECT_LT(test_support::distance(one, other), 1e-9);
+  EXPECT_LT(distance(one, other), 1e-9);
   const Ledger& a = one.totals.ledger;
   const Ledger& b = other.totals.ledger;
   EXPECT_NEAR(a.damping, b.damping, 1e-6 * a.damping);
@@ -90,16 +67,16 @@ void expect_same(const End& one, const End& other) {
 TEST(SharedQuietBoundaries, AWavePassesAsOnOneRank) {
   for (const Integrator integrator : {Integrator::dda, Integrator::generalized_alpha}) {
     const Scene scene = ground(integrator);
-    const End one = alone(scene, shake);
+    const End one = run_alone(scene, shake);
     EXPECT_GT(one.totals.ledger.damping, 0.0);
-    expect_same(one, shared(scene, {0, 1, 0, 1}, 2, shake));
-    expect_same(one, shared(scene, {1, 2, 0, 1}, 3, shake));
+    expect_same(one, run_shared(scene, {0, 1, 0, 1}, 2, shake));
+    expect_same(one, run_shared(scene, {1, 2, 0, 1}, 3, shake));
   }
 }
 
 TEST(SharedQuietBoundaries, TheReactionOfRestIsThatOfAllRanks) {
   const Scene scene = ground(Integrator::dda);
-  (void)shared(scene, {0, 1, 1, 0}, 2, [](Simulation& simulation) {
+  (void)run_shared(scene, {0, 1, 1, 0}, 2, [](Simulation& simulation) {
     ASSERT_EQ(simulation.start_from_statics(), StaticStatus::equilibrium);
     EXPECT_TRUE(advance(simulation, 1));
     // rho g of all four blocks of 24 m^3. Each rank knows the reactions of its ghosts, too.
@@ -118,33 +95,28 @@ TEST(SharedQuietBoundaries, TheReactionOfRestIsThatOfAllRanks) {
 
 TEST(SharedQuietBoundaries, CheckpointsGoOnWithAnyNumberOfRanks) {
   const Scene scene = ground(Integrator::dda);
-  const End one = alone(scene, shake);
-  std::string stored;
-  (void)shared(scene, {0, 1, 2, 2}, 3, [&](Simulation& simulation) {
-    ASSERT_EQ(simulation.start_from_statics(), StaticStatus::equilibrium);
+  const End one = run_alone(scene, shake);
+  const std::string stored = run_shared(scene, {0, 1, 2, 2}, 3, [](Simulation& simulation) {
+    EXPECT_EQ(simulation.start_from_statics(), StaticStatus::equilibrium);
     EXPECT_TRUE(advance(simulation, 20));
-    simulation.gather_results();
-    const SimulationSnapshot snapshot = simulation.snapshot();
-    if (simulation.system().share()->ranks().own() == 0) stored = to_bytes(snapshot);
+    return stored_snapshot(simulation);
   });
   const auto go_on = [&](Simulation& simulation) {
     simulation.restore(snapshot_from_bytes(stored));
     EXPECT_TRUE(advance(simulation, 60));
   };
-  expect_same(one, alone(scene, go_on));
-  expect_same(one, shared(scene, {0, 1, 0, 1}, 2, go_on));
+  expect_same(one, run_alone(scene, go_on));
+  expect_same(one, run_shared(scene, {0, 1, 0, 1}, 2, go_on));
 }
 
 TEST(SharedQuietBoundaries, BlocksTakeTheirReactionsToOtherRanks) {
   const Scene scene = ground(Integrator::dda);
-  Rebalancing balance;
-  balance.interval = 20;
-  balance.partition = [](Ranks&, const std::vector<PartitionBlock>&, int) {
+  const auto partition = [](Ranks&, const std::vector<PartitionBlock>&, int) {
     return std::vector<int>{1, 0, 1, 0};
   };
-  const End end = shared(scene, {0, 0, 0, 1}, 2, shake, balance);
+  const End end = run_shared(scene, {0, 0, 0, 1}, 2, shake, looking_each(20, partition));
   EXPECT_EQ(end.work[0].repartitions, 1);
-  expect_same(alone(scene, shake), end);
+  expect_same(run_alone(scene, shake), end);
 }
 
 }  // namespace

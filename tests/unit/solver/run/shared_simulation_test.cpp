@@ -215,36 +215,28 @@ TEST(SharedSimulation, TheFirstRankKnowsTheBrokenJointsOfAll) {
     }
     return areas;
   };
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation alone(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
-  ASSERT_TRUE(advance(alone, 20));
-  EXPECT_GT(areas_of(alone)[1], 0.1);
-  run_on_threads(2, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    Simulation simulation(
-        share_blocks(own, owners_of(scene, 2), load, scene.settings, {}, nullptr, own.own() == 0),
-        scene.motions, test_support::same_law(scene.law), scene.settings);
-    ASSERT_TRUE(advance(simulation, 10));
-    simulation.gather_results();
-    ASSERT_TRUE(advance(simulation, 20));
-    simulation.gather_results();
-    if (own.own() != 0) return;
-    EXPECT_NEAR(areas_of(simulation)[0], areas_of(alone)[0], 1e-9);
-    EXPECT_NEAR(areas_of(simulation)[1], areas_of(alone)[1], 1e-9);
+  const std::array<double, 2> alone = run_alone(scene, [&](Simulation& simulation) {
+    EXPECT_TRUE(advance(simulation, 20));
+    return areas_of(simulation);
   });
+  EXPECT_GT(alone[1], 0.1);
+  const std::array<double, 2> shared = run_shared(scene, owners_of(scene, 2), 2, [&](Simulation& simulation) {
+    EXPECT_TRUE(advance(simulation, 10));
+    simulation.gather_results();
+    EXPECT_TRUE(advance(simulation, 20));
+    simulation.gather_results();
+    return areas_of(simulation);
+  });
+  EXPECT_NEAR(shared[0], alone[0], 1e-9);
+  EXPECT_NEAR(shared[1], alone[1], 1e-9);
 }
 
 TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
   const Scene scene = wall(3, 4);
-  run_on_threads(2, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    Simulation simulation(
-        share_blocks(own, owners_of(scene, 2), load, scene.settings, {}, nullptr, own.own() == 0),
-        scene.motions, test_support::same_law(scene.law), scene.settings);
+  (void)run_shared(scene, owners_of(scene, 2), 2, [&](Simulation& simulation) {
     ASSERT_TRUE(advance(simulation, 20));
     simulation.gather_results();
-    if (own.own() != 0) return;
+    if (simulation.system().share()->ranks().own() != 0) return;
     const End alone = run_alone(scene, 20);
     EXPECT_EQ(simulation.contacts().size(), alone.contacts.size());
     EXPECT_EQ(simulation.unknowns(), alone.totals.unknowns);
@@ -254,42 +246,47 @@ TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
   });
 }
 
-/// A pile that falls on a base and on itself and rebounds, with springs and with multipliers.
-/// @param owners_for ranks: of the blocks. @param balanced with multipliers: is the energy balance of each step compared, too?
-void expect_same_rebound(Scene scene, const std::function<std::vector<int>(int ranks)>& owners_for, int steps,
-                         bool balanced) {
+using OwnersOfRanks = std::function<std::vector<int>(int ranks)>;
+
+/// A pile that falls on a base and on itself and rebounds. @param balanced is the energy balance of each step compared, too?
+void expect_same_rebound(Scene scene, const OwnersOfRanks& owners_for, int steps, bool balanced) {
   scene.law.restitution = 0.5;
-  for (const bool augmented : {false, true}) {
-    scene.settings.augmented = augmented;
-    const End alone = run_alone(scene, steps);
-    ASSERT_GT(alone.totals.ledger.damping, 1.0);  // of impacts
-    for (const int ranks : {2, 4}) {
-      const End shared = run_shared(scene, owners_for(ranks), ranks, steps);
-      EXPECT_LT(distance(alone, shared), 1e-8) << ranks;
-      EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
-                  1e-7 * alone.totals.ledger.damping);
-      // Tolerances of the iteration leave as much on one rank.
-      if (!augmented || balanced) {
-        EXPECT_LT(shared.largest_step_residual,
-                  2.0 * alone.largest_step_residual + 1e-9 * shared.totals.ledger.kinetic);
-      }
+  const End alone = run_alone(scene, steps);
+  ASSERT_GT(alone.totals.ledger.damping, 1.0);  // of impacts
+  for (const int ranks : {2, 4}) {
+    const End shared = run_shared(scene, owners_for(ranks), ranks, steps);
+    EXPECT_LT(distance(alone, shared), 1e-8) << ranks;
+    EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
+                1e-7 * alone.totals.ledger.damping);
+    // Tolerances of the iteration leave as much on one rank.
+    if (balanced) {
+      EXPECT_LT(shared.largest_step_residual,
+                2.0 * alone.largest_step_residual + 1e-9 * shared.totals.ledger.kinetic);
     }
   }
 }
 
 TEST(SharedSimulation, BlocksOfSeveralRanksReboundAlike) {
   // Layers that are apart, each on ranks of its own.
-  const Scene scene = pile(2, 1, 0.6, 0.38);
-  expect_same_rebound(
-      scene, [&](int ranks) { return owners_along(2, scene.blocks, ranks); }, 120, true);
+  Scene scene = pile(2, 1, 0.6, 0.38);
+  const auto owners = [&](int ranks) { return owners_along(2, scene.blocks, ranks); };
+  for (const bool augmented : {false, true}) {
+    scene.settings.augmented = augmented;
+    expect_same_rebound(scene, owners, 120, true);
+  }
 }
 
 TEST(SharedSimulation, OverlappingBlocksOfSeveralRanksReboundAlike) {
-  // The first step separates them, with multipliers by far more energy than the fall: its balance is as accurate as the
-  // solution of that, and differs with the last bits (2e-8 of the kinetic energy; other steps 1e-12).
-  const Scene scene = pile(2, 1);
-  expect_same_rebound(
-      scene, [&](int ranks) { return owners_of(scene, ranks); }, 90, false);
+  Scene scene = pile(2, 1);
+  const auto owners = [&](int ranks) { return owners_of(scene, ranks); };
+  expect_same_rebound(scene, owners, 90, true);
+  // Multipliers separate the blocks in the first step, with springs stiffened to 2e15 N/m: rounding errors of gaps leave
+  // 2e-8 of the kinetic energy, and differ with the last bits (notes/ranks.md). With a hundred times the penetration
+  // tolerance they leave less than 1e-9.
+  scene.settings.augmented = true;
+  expect_same_rebound(scene, owners, 90, false);
+  scene.settings.multipliers.penetration_tolerance *= 100.0;
+  expect_same_rebound(scene, owners, 90, true);
 }
 
 /// The first of five cubes hits a row of four with small gaps between them: the last one leaves with its velocity.
@@ -373,7 +370,7 @@ TEST(SharedSimulation, TiedBlocksOfSeveralRanksFallAlike) {
 TEST(SharedSimulation, BlocksUnderStressStartAlike) {
   for (const bool augmented : {false, true}) {
     Scene scene = wall(3, 6);
-    scene.stressed = true;
+    scene.start = [](Simulation& simulation) { simulation.start_stressed(); };
     scene.settings.augmented = augmented;
     for (BlockDefinition& block : scene.blocks)
       block.initial_stress = [](const Vector3& place) -> Eigen::Matrix3d {

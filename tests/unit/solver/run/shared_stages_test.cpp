@@ -23,9 +23,9 @@ using test_support::block_of;
 using test_support::End;
 using test_support::end_of;
 using test_support::fixed_box;
+using test_support::on_first_of;
 using test_support::owners_along;
 using test_support::run_static;
-using test_support::same_law;
 using test_support::Scene;
 
 struct Stage {
@@ -35,24 +35,20 @@ struct Stage {
   int axis = 0;  ///< by which blocks are shared out
 };
 
-std::vector<bool> absent_in(const Scene& scene, const Stage& stage) {
-  std::vector<bool> absent(scene.blocks.size(), false);
-  for (const int block : stage.absent) absent[at(block)] = true;
-  return absent;
+Scene in_stage(Scene scene, const Stage& stage) {
+  scene.absent.assign(scene.blocks.size(), false);
+  for (const int block : stage.absent) scene.absent[at(block)] = true;
+  return scene;
 }
 
 Simulation alone(const Scene& scene, const Stage& stage) {
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  return {std::move(blocks), scene.motions, same_law(scene.law),
-          scene.settings,    scene.ties,    absent_in(scene, stage)};
+  return test_support::simulation_alone(in_stage(scene, stage));
 }
 
 Simulation shared(const Scene& scene, const Stage& stage, Ranks& ranks) {
-  const auto load = [&scene](int block) { return BlockModel(scene.blocks[at(block)]); };
-  return {share_blocks(ranks, owners_along(stage.axis, scene.blocks, ranks.count()), load, scene.settings,
-                       absent_in(scene, stage), nullptr, false, scene.ties),
-          scene.motions, same_law(scene.law), scene.settings, scene.ties};
+  return test_support::simulation_on(ranks, in_stage(scene, stage),
+                                     owners_along(stage.axis, scene.blocks, ranks.count()), {},
+                                     test_support::FirstRank::has_its_own);
 }
 
 void run_stage(const Stage& stage, Simulation& simulation) {
@@ -82,12 +78,9 @@ End stages_alone(const Scene& scene, const std::vector<Stage>& stages) {
 }
 
 End stages_shared(const Scene& scene, const std::vector<Stage>& stages, int ranks) {
-  End end;
-  run_on_threads(ranks, [&](Ranks& own) {
-    End here = end_of(run_stages(stages, [&](const Stage& stage) { return shared(scene, stage, own); }));
-    if (own.own() == 0) end = std::move(here);
+  return on_first_of(ranks, [&](Ranks& own) {
+    return end_of(run_stages(stages, [&](const Stage& stage) { return shared(scene, stage, own); }));
   });
-  return end;
 }
 
 /// Middle of a block of order 0 or more at the end, m.
@@ -221,15 +214,12 @@ TEST(SharedStages, AStageGoesOnFromItsCheckpointOnOtherRanks) {
   const End expected = stages_alone(scene, undermining);
   std::vector<Stage> half = {undermining[0], undermining[1]};
   half.back().last = 55;
-  SimulationSnapshot saved;
-  run_on_threads(2, [&](Ranks& own) {
+  const SimulationSnapshot saved = on_first_of(2, [&](Ranks& own) {
     Simulation simulation = run_stages(half, [&](const Stage& stage) { return shared(scene, stage, own); });
     simulation.gather_results({false, {}, {}});
-    SimulationSnapshot here = simulation.snapshot();
-    if (own.own() == 0) saved = std::move(here);
+    return simulation.snapshot();
   });
-  End end;
-  run_on_threads(3, [&](Ranks& own) {
+  const End end = on_first_of(3, [&](Ranks& own) {
     Simulation now = shared(scene, undermining[1], own);
     now.restore(saved);
     run_stage(undermining[1], now);
@@ -237,8 +227,7 @@ TEST(SharedStages, AStageGoesOnFromItsCheckpointOnOtherRanks) {
     Simulation last = shared(scene, undermining[2], own);
     last.start_stage(now);
     run_stage(undermining[2], last);
-    End here = end_of(last);
-    if (own.own() == 0) end = std::move(here);
+    return end_of(last);
   });
   EXPECT_LE(test_support::distance(end, expected), 1e-8);
 }

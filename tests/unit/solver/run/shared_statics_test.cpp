@@ -6,33 +6,29 @@
 #include <map>
 #include <numbers>
 
-#include "geometry/index.hpp"
-#include "solver/ranks/thread_ranks.hpp"
-#include "solver/run/checkpoint.hpp"
-#include "solver/run/gathered_run.hpp"
 #include "support/shared_runs.hpp"
-#include "support/simulations.hpp"
 
 namespace ashlar::shared_statics_test {
 namespace {
 
 using test_support::block_of;
-using test_support::fixed_box;
+using test_support::owners_along;
+using test_support::owners_of;
+using test_support::run_alone;
+using test_support::run_shared;
 using test_support::run_static;
+using test_support::Scene;
+using test_support::simulation_alone;
+using test_support::simulation_on;
 
 constexpr double gravity = 9.81;
 constexpr double degree = std::numbers::pi / 180.0;
 const Material brick{2000, 1e9, 0.2};
 
-struct Placed {
-  std::vector<BlockDefinition> blocks;
-  JointLaw law;
-  SimulationSettings settings;
-
+/// Blocks of rigid joints.
+struct Placed : Scene {
   explicit Placed(double friction) {
-    law.normal_stiffness = 1e9;
-    law.shear_stiffness = 5e8;
-    law.friction = friction;
+    law = test_support::joint(friction);
     law.rigid = true;
     settings.time_step = 1e-2;
     settings.contact_distance = 2e-3;
@@ -44,34 +40,11 @@ struct Placed {
     blocks.push_back(block_of("base", std::move(solid), brick, 1));
     blocks.back().fixed = true;
   }
-  [[nodiscard]] Simulation alone() const {
-    std::vector<BlockModel> models;
-    for (const BlockDefinition& block : blocks) models.emplace_back(block);
-    return {std::move(models), std::vector<InitialMotion>(blocks.size()), test_support::same_law(law),
-            settings};
-  }
-  /// The first rank has all models.
-  [[nodiscard]] Simulation shared(Ranks& ranks, const std::vector<int>& owners) const {
-    const auto load = [this](int block) { return BlockModel(blocks[at(block)]); };
-    return {share_blocks(ranks, owners, load, settings, {}, nullptr, ranks.own() == 0),
-            std::vector<InitialMotion>(blocks.size()), test_support::same_law(law), settings};
-  }
-  /// By the place of blocks along an axis.
-  [[nodiscard]] std::vector<int> owners(int ranks, int axis = 0) const {
-    return test_support::owners_along(axis, blocks, ranks);
-  }
 };
 
-/// Running bond on a fixed base, bricks of 0.4 x 0.2 x 0.2 m. Every other course has one less.
 Placed wall(int courses, int bricks, int order = 1) {
   Placed scene(0.6);
-  scene.add_fixed(Polyhedron(make_box({-1, -1, -0.5}, {0.4 * bricks + 1, 1, 0})));
-  for (int course = 0; course < courses; ++course) {
-    for (int k = 0; k < bricks - course % 2; ++k) {
-      const Vector3 low(0.4 * k + (course % 2 == 0 ? 0.0 : 0.2), 0.0, 0.2 * course);
-      scene.add(low, low + Vector3(0.4, 0.2, 0.2), order);
-    }
-  }
+  scene.blocks = test_support::wall(courses, bricks, order).blocks;
   return scene;
 }
 
@@ -106,7 +79,8 @@ Placed on_slope(double friction, const std::vector<double>& ways) {
   return scene;
 }
 
-struct End {
+/// The end of an analysis. On ranks that of the first one is of all blocks.
+struct Verdict {
   StaticStatus status = StaticStatus::balancing;
   std::vector<BlockState> states;
   std::vector<PairRecord> contacts;
@@ -114,27 +88,10 @@ struct End {
   int steps = 0;
 };
 
-/// Told by the first rank, or alone.
-End end_of(Simulation& simulation, StaticStatus status) {
+Verdict analyse(Simulation& simulation) {
+  const StaticStatus status = run_static(simulation, 1.0);
   simulation.gather_results();
   return {status, simulation.states(), simulation.contacts(), simulation.moving_blocks(), simulation.steps()};
-}
-
-End static_alone(const Placed& scene) {
-  Simulation simulation = scene.alone();
-  const StaticStatus status = run_static(simulation, 1.0);
-  return end_of(simulation, status);
-}
-
-End static_shared(const Placed& scene, const std::vector<int>& owners, int ranks) {
-  End end;
-  run_on_threads(ranks, [&](Ranks& own) {
-    Simulation simulation = scene.shared(own, owners);
-    const StaticStatus status = run_static(simulation, 1.0);
-    End here = end_of(simulation, status);
-    if (own.own() == 0) end = std::move(here);
-  });
-  return end;
 }
 
 double distance(const std::vector<BlockState>& a, const std::vector<BlockState>& b) {
@@ -156,8 +113,8 @@ Vector3 force_on(const std::vector<PairRecord>& contacts, int block) {
 
 TEST(SharedStatics, OneRankHasTheBitsOfNone) {
   const Placed scene = wall(4, 4);
-  const End alone = static_alone(scene);
-  const End shared = static_shared(scene, scene.owners(1), 1);
+  const Verdict alone = run_alone(scene, analyse);
+  const Verdict shared = run_shared(scene, owners_of(scene, 1), 1, analyse);
   EXPECT_EQ(alone.status, StaticStatus::equilibrium);
   EXPECT_EQ(shared.status, StaticStatus::equilibrium);
   EXPECT_EQ(alone.steps, shared.steps);
@@ -166,10 +123,10 @@ TEST(SharedStatics, OneRankHasTheBitsOfNone) {
 
 TEST(SharedStatics, AWallStandsAlikeOnAnyNumberOfRanks) {
   const Placed scene = wall(6, 8);
-  const End alone = static_alone(scene);
+  const Verdict alone = run_alone(scene, analyse);
   const double weight = 45 * 0.016 * 2000 * gravity;
   for (const int ranks : {2, 4}) {
-    const End shared = static_shared(scene, scene.owners(ranks), ranks);
+    const Verdict shared = run_shared(scene, owners_of(scene, ranks), ranks, analyse);
     EXPECT_EQ(shared.status, StaticStatus::equilibrium);
     EXPECT_LT(distance(alone.states, shared.states), 1e-9);
     EXPECT_EQ(alone.contacts.size(), shared.contacts.size());
@@ -182,10 +139,10 @@ TEST(SharedStatics, MultipliersHoldAWallAndAnArchAlike) {
   for (Placed scene : {wall(4, 4), arch(13)}) {
     scene.settings.augmented = true;
     scene.settings.multipliers.penetration_tolerance = 2e-7;
-    const End alone = static_alone(scene);
+    const Verdict alone = run_alone(scene, analyse);
     ASSERT_EQ(alone.status, StaticStatus::equilibrium);
     for (const int ranks : {2, 4}) {
-      const End shared = static_shared(scene, scene.owners(ranks), ranks);
+      const Verdict shared = run_shared(scene, owners_of(scene, ranks), ranks, analyse);
       EXPECT_EQ(shared.status, StaticStatus::equilibrium);
       EXPECT_LT(distance(alone.states, shared.states), scene.settings.multipliers.penetration_tolerance);
       EXPECT_LT((force_on(alone.contacts, 0) - force_on(shared.contacts, 0)).norm(),
@@ -197,8 +154,8 @@ TEST(SharedStatics, MultipliersHoldAWallAndAnArchAlike) {
 TEST(SharedStatics, CurvedAndRigidBlocksStandAlike) {
   for (const int order : {0, 2}) {
     const Placed scene = wall(2, 2, order);
-    const End alone = static_alone(scene);
-    const End shared = static_shared(scene, scene.owners(2, 2), 2);
+    const Verdict alone = run_alone(scene, analyse);
+    const Verdict shared = run_shared(scene, owners_along(2, scene.blocks, 2), 2, analyse);
     EXPECT_EQ(shared.status, StaticStatus::equilibrium) << order;
     EXPECT_LT(distance(alone.states, shared.states), 1e-9) << order;
   }
@@ -206,10 +163,10 @@ TEST(SharedStatics, CurvedAndRigidBlocksStandAlike) {
 
 TEST(SharedStatics, AnArchStandsAlike) {
   const Placed scene = arch(13);
-  const End alone = static_alone(scene);
+  const Verdict alone = run_alone(scene, analyse);
   ASSERT_EQ(alone.status, StaticStatus::equilibrium);
   for (const int ranks : {2, 4}) {
-    const End shared = static_shared(scene, scene.owners(ranks), ranks);
+    const Verdict shared = run_shared(scene, owners_of(scene, ranks), ranks, analyse);
     EXPECT_EQ(shared.status, StaticStatus::equilibrium);
     EXPECT_LT(distance(alone.states, shared.states), 1e-8);
     EXPECT_LT((force_on(alone.contacts, 0) - force_on(shared.contacts, 0)).norm(),
@@ -226,9 +183,9 @@ TEST(SharedStatics, BlocksOfTwoRanksSlide) {
   scene.add({10.5, 0.5, 1}, {11.5, 1.5, 2});
   scene.add({10.5, 0.5, 2}, {11.5, 1.5, 3});
   const std::vector<int> owners = {0, 0, 1, 1, 1, 0};
-  const End alone = static_alone(scene);
+  const Verdict alone = run_alone(scene, analyse);
   ASSERT_EQ(alone.status, StaticStatus::moving);
-  const End shared = static_shared(scene, owners, 2);
+  const Verdict shared = run_shared(scene, owners, 2, analyse);
   EXPECT_EQ(shared.status, StaticStatus::moving);
   ASSERT_EQ(shared.moving.size(), 2u);
   ASSERT_EQ(alone.moving.size(), 2u);
@@ -246,13 +203,13 @@ TEST(SharedStatics, AnObstacleOfAnotherRankAheadIsDetected) {
     // A body of the other rank.
     scene.add_fixed(Polyhedron(make_box({10, 0, 0}, {12, 2, 1})));
     scene.add({10.5, 0.5, 1}, {11.5, 1.5, 2});
-    const End shared = static_shared(scene, {0, 0, 1, 1, 1}, 2);
+    const Verdict shared = run_shared(scene, {0, 0, 1, 1, 1}, 2, analyse);
     EXPECT_EQ(shared.status, StaticStatus::equilibrium) << way;
-    const End alone = static_alone(scene);
+    const Verdict alone = run_alone(scene, analyse);
     EXPECT_EQ(alone.status, StaticStatus::equilibrium) << way;
     EXPECT_LT(distance(alone.states, shared.states), 1e-7);
   }
-  const End free = static_shared(on_slope(0.0, {1.5}), {0, 0, 1}, 2);
+  const Verdict free = run_shared(on_slope(0.0, {1.5}), {0, 0, 1}, 2, analyse);
   EXPECT_EQ(free.status, StaticStatus::moving);
   EXPECT_LT(free.steps, 12);
 }
@@ -273,10 +230,10 @@ TEST(SharedStatics, TheVerdictOfRigidBlocksIsToldToAllRanks) {
     scene.add_fixed(Polyhedron(make_box({-5, -1, -1}, {2, 1, 0})));
     scene.add_fixed(Polyhedron(make_box({0, -1, 0}, {1, 1, 5})));
     scene.add({-4, -0.5, 0}, {-3.5, 0, 0.5}, 0);
-    const End alone = static_alone(scene);
+    const Verdict alone = run_alone(scene, analyse);
     EXPECT_EQ(alone.status, friction < 0.35 ? StaticStatus::moving : StaticStatus::equilibrium);
     run_on_threads(2, [&](Ranks& own) {
-      Simulation simulation = scene.shared(own, {1, 0, 0, 0});
+      Simulation simulation = simulation_on(own, scene, {1, 0, 0, 0});
       EXPECT_EQ(run_static(simulation, 1.0), alone.status) << friction;
       simulation.gather_results();
       if (own.own() != 0) return;
@@ -305,18 +262,18 @@ const std::vector<int> owners_of_flying = {0, 0, 1, 0, 1, 1, 1, 0};
 TEST(SharedStatics, AllRanksKnowTheSameLooseBlocks) {
   const Placed scene = flying();
   const std::vector<std::vector<int>> loose = {{3, 4}, {5, 6}, {7}};
-  EXPECT_EQ(scene.alone().loose_blocks(), loose);
-  run_on_threads(2,
-                 [&](Ranks& own) { EXPECT_EQ(scene.shared(own, owners_of_flying).loose_blocks(), loose); });
+  EXPECT_EQ(simulation_alone(scene).loose_blocks(), loose);
+  run_on_threads(
+      2, [&](Ranks& own) { EXPECT_EQ(simulation_on(own, scene, owners_of_flying).loose_blocks(), loose); });
 }
 
 TEST(SharedStatics, MotionStartsFromTheStaticState) {
   const Placed scene = flying();
-  Simulation alone = scene.alone();
+  Simulation alone = simulation_alone(scene);
   ASSERT_EQ(alone.start_from_statics(), StaticStatus::equilibrium);
   for (int k = 0; k < 10; ++k) ASSERT_EQ(alone.step(1e3), StepStatus::accepted);
   run_on_threads(2, [&](Ranks& own) {
-    Simulation shared = scene.shared(own, owners_of_flying);
+    Simulation shared = simulation_on(own, scene, owners_of_flying);
     ASSERT_EQ(shared.start_from_statics(), StaticStatus::equilibrium);
     for (int k = 0; k < 10; ++k) ASSERT_EQ(shared.step(1e3), StepStatus::accepted);
     const Ledger ledger = totals_of_run(shared).ledger;
@@ -336,7 +293,7 @@ TEST(SharedStatics, WithoutStaticStateBlocksStartAsPlaced) {
   scene.blocks.push_back(
       block_of("upper", test_support::tilted_box({-0.5, -0.5, 1}, {0.5, 0.5, 2}, 30.0), brick, 1));
   run_on_threads(2, [&](Ranks& own) {
-    Simulation shared = scene.shared(own, {0, 0, 1});
+    Simulation shared = simulation_on(own, scene, {0, 0, 1});
     ASSERT_EQ(shared.start_from_statics(), StaticStatus::moving);
     EXPECT_EQ(shared.steps(), 0);
     for (const int k : {0, 2})
@@ -349,28 +306,23 @@ TEST(SharedStatics, WithoutStaticStateBlocksStartAsPlaced) {
 
 TEST(SharedStatics, AnAnalysisGoesOnFromItsSnapshotOnAnyNumberOfRanks) {
   const Placed scene = wall(4, 6);
-  const End alone = static_alone(scene);
-  SimulationSnapshot whole;
-  run_on_threads(2, [&](Ranks& own) {
-    Simulation simulation = scene.shared(own, scene.owners(2));
-    for (int k = 0; k < 4; ++k) ASSERT_EQ(simulation.static_step(1.0), StaticStatus::balancing);
+  const Verdict alone = run_alone(scene, analyse);
+  const SimulationSnapshot whole = run_shared(scene, owners_of(scene, 2), 2, [](Simulation& simulation) {
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(simulation.static_step(1.0), StaticStatus::balancing);
     simulation.gather_results();
-    SimulationSnapshot here = simulation.snapshot();
-    if (own.own() == 0) whole = std::move(here);
+    return simulation.snapshot();
   });
-  Simulation one = scene.alone();
-  one.restore(whole);
-  EXPECT_EQ(run_static(one, 1.0), StaticStatus::equilibrium);
-  EXPECT_EQ(one.steps(), alone.steps);
-  EXPECT_LT(distance(alone.states, one.states()), 1e-9);
-  run_on_threads(4, [&](Ranks& own) {
-    Simulation simulation = scene.shared(own, scene.owners(4));
+  const auto go_on = [&](Simulation& simulation) {
     simulation.restore(whole);
-    EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
-    simulation.gather_results();
-    if (own.own() != 0) return;
-    EXPECT_LT(distance(alone.states, simulation.states()), 1e-9);
-  });
+    Verdict verdict = analyse(simulation);
+    EXPECT_EQ(verdict.status, StaticStatus::equilibrium);
+    return verdict;
+  };
+  const Verdict one = run_alone(scene, go_on);
+  EXPECT_EQ(one.steps, alone.steps);
+  EXPECT_LT(distance(alone.states, one.states), 1e-9);
+  const Verdict shared = run_shared(scene, owners_of(scene, 4), 4, go_on);
+  EXPECT_LT(distance(alone.states, shared.states), 1e-9);
 }
 
 }  // namespace

@@ -56,16 +56,21 @@ TEST(Island, IsNotJoinedByAFixedBlock) {
   EXPECT_EQ(islands[1].pairs, (std::vector<int>{1}));
 }
 
-TEST(Island, TiesJoinBlocksButAreNoContacts) {
+TEST(Island, TiesJoinBlocksAsContactsDo) {
   const Polyhedron below(make_box({0, 0, 0}, {1, 1, 1})), above(make_box({0, 0, 1}, {1, 1, 2}));
   const Tie tie = tie_between(below, PolynomialBasis(below, 1), above, PolynomialBasis(above, 1));
   std::vector<ContactPair> pairs;
   pairs.push_back(pair_of(0, 1));
   pairs.push_back(tie_of(1, 2, tie));
-  const std::vector<Island> islands = find_islands({true, true, true}, pairs);
-  ASSERT_EQ(islands.size(), 1U);
+  const std::vector<bool> moving(4, true);
+  const std::vector<Island> islands = find_islands(moving, pairs);
+  ASSERT_EQ(islands.size(), 2U);
   EXPECT_EQ(islands[0].bodies, (std::vector<int>{0, 1, 2}));
-  EXPECT_EQ(contacts_of(islands[0], pairs), (std::vector<PairKey>{{0, 1}}));
+  EXPECT_EQ(islands[0].pairs, (std::vector<int>{0, 1})) << "the tie's equations are the island's, too";
+  EXPECT_EQ(islands[1].bodies, (std::vector<int>{3}));
+  EXPECT_NO_THROW(validate(islands, moving, pairs));
+  EXPECT_THROW(validate({{{0, 1}, {0}}, {{2}, {}}, {{3}, {}}}, moving, pairs), std::logic_error)
+      << "the tie's blocks are in two";
 }
 
 TEST(Island, SetsThatCannotBeAreRefused) {

@@ -11,9 +11,9 @@ using test_support::advance;
 using test_support::block_of;
 using test_support::distance;
 using test_support::End;
-using test_support::end_of;
 using test_support::fixed_box;
 using test_support::joint;
+using test_support::looking_each;
 using test_support::owners_of;
 using test_support::pile;
 using test_support::run_alone;
@@ -25,10 +25,6 @@ using test_support::wall;
 std::vector<int> first_has_all(const Scene& scene) {
   std::vector<int> owners(scene.blocks.size(), 0);
   return owners;
-}
-
-std::function<void(SharedBlocks&)> looking_each(int steps, Partition partition = partition_by_place) {
-  return [=](SharedBlocks& shared) { shared.balance = {partition, 0.2, steps}; };
 }
 
 int repartitions(const End& end) {
@@ -155,32 +151,21 @@ TEST(RankBalance, OwnersStayWithoutNeed) {
 /// A run that has shared its blocks out again is saved, and goes on on another number of ranks, or alone.
 TEST(RankBalance, ARunGoesOnFromASnapshotAfterwards) {
   const Scene scene = pile(3, 1);
-  const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-  const auto simulation_on = [&](Ranks& own) {
-    BlocksOfRank blocks =
-        share_blocks(own, first_has_all(scene), load, scene.settings, {}, nullptr, own.own() == 0);
-    looking_each(80)(*blocks.shared);
-    return Simulation(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
-  };
-  SimulationSnapshot saved;
-  run_on_threads(2, [&](Ranks& own) {
-    Simulation simulation = simulation_on(own);
-    ASSERT_TRUE(advance(simulation, 100));
-    EXPECT_EQ(simulation.shared_blocks()->balance.repartitions, 1);
-    simulation.gather_results({false, {}, {}});
-    SimulationSnapshot part = simulation.snapshot();
-    if (own.own() == 0) saved = std::move(part);
-  });
-  const End alone = run_alone(scene, 130);
-  run_on_threads(3, [&](Ranks& own) {
-    Simulation simulation = simulation_on(own);
+  const SimulationSnapshot saved = run_shared(
+      scene, first_has_all(scene), 2,
+      [](Simulation& simulation) {
+        EXPECT_TRUE(advance(simulation, 100));
+        EXPECT_EQ(simulation.shared_blocks()->balance.repartitions, 1);
+        simulation.gather_results({false, {}, {}});
+        return simulation.snapshot();
+      },
+      looking_each(80));
+  const auto go_on = [&](Simulation& simulation) {
     simulation.restore(saved);
-    ASSERT_TRUE(advance(simulation, 130));
-    const End end = end_of(simulation);
-    if (own.own() == 0) {
-      EXPECT_LT(distance(alone, end), 1e-9);
-    }
-  });
+    EXPECT_TRUE(advance(simulation, 130));
+  };
+  const End end = run_shared(scene, first_has_all(scene), 3, go_on, looking_each(80));
+  EXPECT_LT(distance(run_alone(scene, 130), end), 1e-9);
 }
 
 }  // namespace
