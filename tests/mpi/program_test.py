@@ -10,11 +10,12 @@ import unittest
 from ranks_messages import MessagesTest
 from ranks_motion import MotionTest
 from ranks_runs import Program
+from ranks_searches import SearchesTest
 from ranks_stages import StagesTest
 from ranks_statics import StaticsTest
 from ranks_work import WorkTest
 
-__all__ = ["MessagesTest", "MotionTest", "StagesTest", "StaticsTest", "WorkTest"]
+__all__ = ["MessagesTest", "MotionTest", "SearchesTest", "StagesTest", "StaticsTest", "WorkTest"]
 
 if __name__ == "__main__":
     Program.mpiexec, Program.ashlar, Program.scenes = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])

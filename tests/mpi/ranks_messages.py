@@ -34,7 +34,7 @@ class MessagesTest(RanksTest):
         self.assertEqual(out.count("Usage: ashlar run"), 1, out)
 
     def test_what_ranks_cannot_do_is_refused(self):
-        status, _, errors = run(2, "run", self.scene("wall"), "--set", "analysis.type=limit", "--out", self.folder / "out")
+        status, _, errors = run(2, "run", self.scene("wall"), "--set", "analysis.accuracy=0.01", "--out", self.folder / "out")
         self.assertEqual(status, BAD_INPUT, errors)
         self.assertEqual(len(errors_in(errors)), 1, errors)
         status, _, errors = run(2, "run", "-", "--out", self.folder / "out")
