@@ -30,7 +30,7 @@ struct Scene {
   std::function<void(Simulation&)> start = {};
 };
 
-inline JointLaw joint(double friction) {
+inline JointLaw spring_joint(double friction) {
   JointLaw law;
   law.normal_stiffness = 1e9;
   law.shear_stiffness = 5e8;
@@ -41,7 +41,7 @@ inline JointLaw joint(double friction) {
 /// Running bond on a fixed base, bricks of 0.4 x 0.2 x 0.2 m. Every other course has one less.
 inline Scene wall(int courses, int bricks, int order = 1) {
   Scene scene;
-  scene.law = joint(0.6);
+  scene.law = spring_joint(0.6);
   scene.settings.time_step = 2e-3;
   scene.settings.contact_distance = 2e-3;
   scene.blocks.push_back(fixed_box({-1, -1, -0.5}, {0.4 * bricks + 1, 1, 0}));
@@ -60,7 +60,7 @@ inline Scene wall(int courses, int bricks, int order = 1) {
 /// @param along,above distance of their middles, m: boxes do not overlap from 0.6 and 0.38 m on
 inline Scene pile(int layers, int order, double along = 0.45, double above = 0.34) {
   Scene scene;
-  scene.law = joint(0.5);
+  scene.law = spring_joint(0.5);
   scene.settings.time_step = 2e-3;
   scene.settings.contact_distance = 2e-3;
   scene.blocks.push_back(fixed_box({-2, -2, -0.5}, {4, 2, 0}));

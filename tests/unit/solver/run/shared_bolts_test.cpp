@@ -17,7 +17,7 @@ using test_support::block_of;
 using test_support::distance;
 using test_support::end_of;
 using test_support::fixed_box;
-using test_support::joint;
+using test_support::spring_joint;
 using test_support::looking_each;
 using test_support::run_alone;
 using test_support::run_shared;
@@ -77,7 +77,7 @@ auto bolted_to(int steps) {
 /// four bars.
 Bolted hanging(int count, const BoltLaw& law) {
   Bolted bolted;
-  bolted.law = joint(0.5);
+  bolted.law = spring_joint(0.5);
   bolted.settings.time_step = 1e-3;
   bolted.settings.gravity = {0, 0, -gravity};
   bolted.blocks.push_back(fixed_box({-1, -1, 0}, {2, 2, 1}));
@@ -95,7 +95,7 @@ Bolted hanging(int count, const BoltLaw& law) {
 /// between their tops, of which one moves towards the other. The grout slips, and the joints slide.
 Bolted pinned_columns(int blocks) {
   Bolted bolted;
-  bolted.law = joint(0.2);
+  bolted.law = spring_joint(0.2);
   bolted.settings.time_step = 1e-3;
   bolted.settings.contact_distance = 2e-3;
   bolted.settings.gravity = {3.0, 0.5, -gravity};

@@ -70,7 +70,7 @@ TEST(SharedMultipliers, APileFallsAlikeOnAnyNumberOfRanks) {
 /// Blocks without gravity that meet in pairs and turn: their momenta stay those of the start.
 Scene meeting_blocks() {
   Scene scene;
-  scene.law = test_support::joint(0.3);
+  scene.law = test_support::spring_joint(0.3);
   scene.settings.time_step = 1e-3;
   scene.settings.contact_distance = 2e-3;
   scene.settings.gravity = Vector3::Zero();
@@ -106,7 +106,7 @@ TEST(SharedMultipliers, MomentaOfBlocksOnSeveralRanksAreKept) {
 /// are separated between steps.
 TEST(SharedMultipliers, BlocksOfTwoRanksAreSeparatedAlike) {
   Scene scene;
-  scene.law = test_support::joint(0.1);
+  scene.law = test_support::spring_joint(0.1);
   scene.settings.time_step = 2e-3;
   scene.settings.contact_distance = 2e-3;
   scene.settings.augmented = true;

@@ -16,7 +16,7 @@ using test_support::block_of;
 using test_support::distance;
 using test_support::End;
 using test_support::fixed_box;
-using test_support::joint;
+using test_support::spring_joint;
 using test_support::owners_of;
 using test_support::run_alone;
 using test_support::run_shared;
@@ -39,7 +39,7 @@ std::map<PairKey, double> depths_of(const Scene& scene) {
 /// Columns of cubes of 0.5 m beside each other on a fixed base, each cube 1 mm in the one below.
 Scene columns() {
   Scene scene;
-  scene.law = joint(0.6);
+  scene.law = spring_joint(0.6);
   scene.law.rigid = true;
   scene.settings.time_step = 2e-3;
   scene.settings.contact_distance = 2e-3;

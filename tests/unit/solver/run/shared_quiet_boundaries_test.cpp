@@ -13,7 +13,7 @@ using test_support::advance;
 using test_support::block_of;
 using test_support::distance;
 using test_support::End;
-using test_support::joint;
+using test_support::spring_joint;
 using test_support::looking_each;
 using test_support::run_alone;
 using test_support::run_shared;
@@ -27,7 +27,7 @@ const Material soil{2000.0, 2e8, 0.25};
 /// Two columns of two blocks beside each other, on a quiet base with a wave across. Blocks 0 and 1 are at the base.
 Scene ground(Integrator integrator) {
   Scene scene;
-  scene.law = joint(0.6);
+  scene.law = spring_joint(0.6);
   scene.law.rigid = true;
   scene.settings.time_step = 1e-3;
   scene.settings.contact_distance = 2e-3;

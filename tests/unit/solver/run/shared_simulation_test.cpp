@@ -12,7 +12,7 @@ using test_support::block_of;
 using test_support::distance;
 using test_support::End;
 using test_support::fixed_box;
-using test_support::joint;
+using test_support::spring_joint;
 using test_support::owners_along;
 using test_support::owners_of;
 using test_support::pile;
@@ -100,7 +100,7 @@ TEST(SharedSimulation, APileFallsAlikeOnAnyNumberOfRanks) {
 /// A block that slides over slabs of other ranks, without friction.
 TEST(SharedSimulation, ABlockSlidesAcrossTheSlabsOfAllRanks) {
   Scene scene;
-  scene.law = joint(0.0);
+  scene.law = spring_joint(0.0);
   scene.settings.time_step = 5e-3;
   scene.settings.contact_distance = 2e-3;
   for (int k = 0; k < 8; ++k) scene.blocks.push_back(fixed_box({0.5 * k, -1, -0.5}, {0.5 * (k + 1), 1, 0}));
@@ -128,7 +128,7 @@ TEST(SharedSimulation, ABlockSlidesAcrossTheSlabsOfAllRanks) {
 /// Two stacks of two cubes come to rest, the first one on two ranks. Later a block falls on it and wakes it.
 TEST(SharedSimulation, AllRanksPutTheSameIslandsToSleepAndWakeThem) {
   Scene scene;
-  scene.law = joint(0.5);
+  scene.law = spring_joint(0.5);
   scene.settings.time_step = 2e-3;
   scene.blocks.push_back(fixed_box({-5, -5, -1}, {5, 5, 0}));
   for (const double x : {0.0, 3.0}) {
@@ -292,7 +292,7 @@ TEST(SharedSimulation, OverlappingBlocksOfSeveralRanksReboundAlike) {
 /// The first of five cubes hits a row of four with small gaps between them: the last one leaves with its velocity.
 TEST(SharedSimulation, AnImpactPassesThroughTheBlocksOfAllRanks) {
   Scene scene;
-  scene.law = joint(0.0);
+  scene.law = spring_joint(0.0);
   scene.law.restitution = 1.0;
   scene.settings.time_step = 1e-3;
   scene.settings.contact_distance = 2e-3;
@@ -316,7 +316,7 @@ TEST(SharedSimulation, AnImpactPassesThroughTheBlocksOfAllRanks) {
 /// A bar of four blocks that are tied to each other, one on each rank, flies and turns.
 TEST(SharedSimulation, TiedBlocksOfSeveralRanksTurnAsOne) {
   Scene scene;
-  scene.law = joint(0.5);
+  scene.law = spring_joint(0.5);
   scene.settings.time_step = 2e-3;
   scene.settings.gravity = Vector3::Zero();
   scene.blocks.push_back(fixed_box({-9, -9, -9}, {-8, -8, -8}));

@@ -152,7 +152,7 @@ TEST(SharedStages, AnAddedBlockFallsFreely) {
 
 TEST(SharedStages, ABlockTiedToOneThatHasMovedIsRefusedAlike) {
   Scene scene;
-  scene.law = test_support::joint(0.5);
+  scene.law = test_support::spring_joint(0.5);
   scene.settings.time_step = 2e-3;
   scene.settings.contact_distance = 2e-3;
   scene.blocks = {fixed_box({-1, -1, -9}, {3, 2, -8}),
@@ -185,7 +185,7 @@ TEST(SharedStages, ABlockTiedToOneThatHasMovedIsRefusedAlike) {
 /// Two cubes of 1 m fly apart, so that their joint fails: far from each other no rank has both.
 TEST(SharedStages, FailedJointsFarApartAreCounted) {
   Scene scene;
-  scene.law = test_support::joint(0.5);
+  scene.law = test_support::spring_joint(0.5);
   scene.law.tensile_strength = 1e3;
   scene.law.cohesion = 1e3;
   scene.settings.gravity.setZero();

@@ -28,7 +28,7 @@ const Material brick{2000, 1e9, 0.2};
 /// Blocks of rigid joints.
 struct Placed : Scene {
   explicit Placed(double friction) {
-    law = test_support::joint(friction);
+    law = test_support::spring_joint(friction);
     law.rigid = true;
     settings.time_step = 1e-2;
     settings.contact_distance = 2e-3;

@@ -12,7 +12,7 @@ using test_support::block_of;
 using test_support::distance;
 using test_support::End;
 using test_support::fixed_box;
-using test_support::joint;
+using test_support::spring_joint;
 using test_support::looking_each;
 using test_support::owners_of;
 using test_support::pile;
@@ -120,7 +120,7 @@ TEST(RankBalance, JointsKeepWhatHasBroken) {
 /// A stack sleeps when its blocks get other owners, and is woken by a block that falls on it.
 TEST(RankBalance, SleepingBlocksGoToOtherRanks) {
   Scene scene;
-  scene.law = joint(0.5);
+  scene.law = spring_joint(0.5);
   scene.settings.time_step = 2e-3;
   scene.blocks.push_back(fixed_box({-5, -5, -1}, {5, 5, 0}));
   for (const double x : {0.0, 3.0})
