@@ -6,9 +6,12 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "apps/results/folder/stored_layout.hpp"
 #include "apps/results/text/atomic_file.hpp"
+#include "solver/struct_members.hpp"
 
 namespace ashlar {
 namespace {
@@ -23,15 +26,41 @@ struct Header {
   std::uint64_t scene = 0;
 };
 
-}  // namespace
+/// Writes a checkpoint as a ByteWriter does, with the pairs of a run in place of its own.
+class WriterOfRun {
+ public:
+  WriterOfRun(ByteWriter& writer, PairsOfRun& pairs) : writer_(writer), pairs_(pairs) {}
 
-std::uint32_t checkpoint_layout() {
-  static const auto layout = static_cast<std::uint32_t>(stored_layout<RunCheckpoint>(meaning_version));
-  return layout;
-}
+  void write(const RunCheckpoint& checkpoint) {
+    with_members(checkpoint, [this](const SimulationSnapshot& simulation, const auto&... of_run) {
+      with_members(simulation, [this](const RunState& state, const auto&... of_simulation) {
+        with_members(state, [this](const auto&... members) { (write_member(members), ...); });
+        writer_(of_simulation...);
+      });
+      writer_(of_run...);
+    });
+  }
 
-std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
-                                const RunCheckpoint& checkpoint) {
+ private:
+  template <class Member>
+  void write_member(const Member& member) {
+    const auto begin = [this](std::size_t count) { writer_(static_cast<std::uint64_t>(count)); };
+    if constexpr (std::is_same_v<Member, PairHistories>) {
+      pairs_.visit_histories(
+          begin, [this](const PairKey& blocks, const PairHistory& history) { writer_(blocks, history); });
+    } else if constexpr (std::is_same_v<Member, std::vector<PairRecord>>) {
+      pairs_.visit_records(begin, [this](const PairRecord& record) { writer_(record); });
+    } else {
+      writer_(member);
+    }
+  }
+
+  ByteWriter& writer_;
+  PairsOfRun& pairs_;
+};
+
+std::uintmax_t write_file(const std::filesystem::path& path, std::uint64_t hash,
+                          const RunCheckpoint& checkpoint, PairsOfRun* pairs) {
   std::uintmax_t size = 0;
   write_file_atomically(path, Durability::power, [&](OutputFile& file) {
     ByteWriter header;
@@ -42,7 +71,10 @@ std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t
       payload_hash = hash_bytes(bytes, payload_hash);
       file.write(bytes);
     });
-    payload(checkpoint);
+    if (pairs != nullptr)
+      WriterOfRun(payload, *pairs).write(checkpoint);
+    else
+      payload(checkpoint);
     payload.flush();
     ByteWriter end;
     end(payload_hash);
@@ -50,6 +82,23 @@ std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t
     size = file.size();
   });
   return size;
+}
+
+}  // namespace
+
+std::uint32_t checkpoint_layout() {
+  static const auto layout = static_cast<std::uint32_t>(stored_layout<RunCheckpoint>(meaning_version));
+  return layout;
+}
+
+std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                const RunCheckpoint& checkpoint, PairsOfRun* pairs) {
+  try {
+    return write_file(path, hash, checkpoint, pairs);
+  } catch (...) {
+    if (pairs != nullptr) pairs->finish();
+    throw;
+  }
 }
 
 RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash) {
