@@ -110,10 +110,11 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
   if (are_several(ranks)) refuse_for_ranks(options, diagnostics);
   if (!diagnostics.good()) return prepared;
   Preparation preparation(options.quiet || !is_first(ranks), err);
+  const int count = ranks == nullptr ? 1 : ranks->ranks.count();
   std::optional<LoadedScene> loaded =
       options.text
-          ? load_scene_text(*options.text, options.scene, options.overrides, diagnostics, &preparation)
-          : load_scene(options.scene, options.overrides, diagnostics, &preparation);
+          ? load_scene_text(*options.text, options.scene, options.overrides, diagnostics, &preparation, count)
+          : load_scene(options.scene, options.overrides, diagnostics, &preparation, LoadPurpose::run, count);
   if (are_several(ranks) && any_rank(ranks->ranks, !loaded)) return prepared;
   if (!loaded) return prepared;
   const auto scene = std::make_shared<const LoadedScene>(std::move(*loaded));
