@@ -47,11 +47,19 @@ int exit_status_of(RunStatus status) {
   return exit_status::failed;
 }
 
+/// The pairs that a run needs of its checkpoint: of several ranks those of own blocks. All, if the blocks of the
+/// checkpoint's stage may have other owners than those of the first one.
+NeededPairs pairs_needed_by(const Run& run) {
+  const BlockSystem& system = run.simulation().system();
+  if (system.share() == nullptr || !run.whole().stage.empty()) return nullptr;
+  return [&system](const PairKey& blocks) { return system.owns(blocks[0]) || system.owns(blocks[1]); };
+}
+
 /// The checkpoint that a run continues from. A fault that prevents it is reported at the file.
 std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const Run& run,
                                              Diagnostics& diagnostics) {
   try {
-    return stored_checkpoint(folder, run.whole(), run.identity());
+    return stored_checkpoint(folder, run.whole(), run.identity(), pairs_needed_by(run));
   } catch (const CheckpointError& error) {
     diagnostics.error({(folder / checkpoint_name).string()}, error.what());
     return std::nullopt;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "apps/results/folder/stored_layout.hpp"
@@ -59,6 +60,50 @@ class WriterOfRun {
   PairsOfRun& pairs_;
 };
 
+/// Reads a checkpoint as a ByteReader does, but keeps only some of its pairs.
+class ReaderOfPairs {
+ public:
+  ReaderOfPairs(ByteReader& reader, const NeededPairs& needed) : reader_(reader), needed_(needed) {}
+
+  void read(RunCheckpoint& checkpoint) {
+    with_members(checkpoint, [this](SimulationSnapshot& simulation, auto&... of_run) {
+      with_members(simulation, [this](RunState& state, auto&... of_simulation) {
+        with_members(state, [this](auto&... members) { (read_member(members), ...); });
+        reader_(of_simulation...);
+      });
+      reader_(of_run...);
+    });
+  }
+
+ private:
+  template <class Member>
+  void read_member(Member& member) {
+    std::uint64_t count = 0;
+    if constexpr (std::is_same_v<Member, PairHistories>) {
+      for (reader_(count); count > 0; --count) {
+        PairKey blocks;
+        PairHistory history;
+        reader_(blocks, history);
+        if (needed_(blocks))
+          member.emplace_hint(member.end(), blocks, std::move(history));
+        else if (history.overlap > 0.0)
+          member[blocks].overlap = history.overlap;
+      }
+    } else if constexpr (std::is_same_v<Member, std::vector<PairRecord>>) {
+      for (reader_(count); count > 0; --count) {
+        PairRecord record{};
+        reader_(record);
+        if (needed_({record.a, record.b})) member.push_back(std::move(record));
+      }
+    } else {
+      reader_(member);
+    }
+  }
+
+  ByteReader& reader_;
+  const NeededPairs& needed_;
+};
+
 std::uintmax_t write_file(const std::filesystem::path& path, std::uint64_t hash,
                           const RunCheckpoint& checkpoint, PairsOfRun* pairs) {
   std::uintmax_t size = 0;
@@ -101,7 +146,8 @@ std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t
   }
 }
 
-RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash) {
+RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                              const NeededPairs& needed) {
   std::ifstream input(path, std::ios::binary);
   if (!input) throw CheckpointError("no checkpoint to resume from, run without --resume first");
   if (std::filesystem::is_directory(path)) throw CheckpointError("not a checkpoint but a folder");
@@ -132,7 +178,10 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
     }
     ByteReader reader(left.substr(0, size));
     RunCheckpoint checkpoint;
-    reader(checkpoint);
+    if (needed)
+      ReaderOfPairs(reader, needed).read(checkpoint);
+    else
+      reader(checkpoint);
     return checkpoint;
   } catch (const CheckpointError&) {
     throw;

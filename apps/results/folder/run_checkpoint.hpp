@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -50,7 +51,12 @@ struct OtherSceneError : CheckpointError {
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
                                 const RunCheckpoint& checkpoint, PairsOfRun* pairs = nullptr);
 
-/// @param hash of the scene to be continued. @throws CheckpointError
-[[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash);
+/// Pairs of a checkpoint that a reader needs; empty: all.
+using NeededPairs = std::function<bool(const PairKey& blocks)>;
+
+/// @param hash of the scene to be continued. @param needed of other pairs only the initial overlap is kept
+/// @throws CheckpointError
+[[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                            const NeededPairs& needed = nullptr);
 
 }  // namespace ashlar

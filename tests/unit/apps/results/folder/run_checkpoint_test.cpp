@@ -36,6 +36,44 @@ TEST(RunCheckpoint, PairsThatAreVisitedAreWrittenAsThoseOfASnapshot) {
   EXPECT_EQ(read_text(folder / "visited"), read_text(folder / "whole"));
 }
 
+TEST(RunCheckpoint, PairsThatAreNotNeededAreReadWithTheirOverlapAlone) {
+  const TemporaryFolder folder;
+  const Scene scene = wall(2, 3);
+  std::vector<BlockModel> blocks;
+  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
+  Simulation simulation(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
+  ASSERT_TRUE(advance(simulation, 2));
+  RunCheckpoint written{simulation.snapshot(), {}, {}, {}, {}, {}};
+  // Ground 0, course of 1, 2 and 3, on which 4 and 5 are: three pairs with the ground, seven of bricks.
+  ASSERT_EQ(written.simulation.run.records.size(), 10u);
+  written.simulation.run.pairs.at({1, 4}).overlap = 1e-3;
+  write_checkpoint(folder / "checkpoint", scene_hash, written);
+  const RunCheckpoint read = read_checkpoint(
+      folder / "checkpoint", scene_hash, [](const PairKey& pair) { return pair[0] == 3 || pair[1] == 3; });
+  const auto keys = [](const auto& pairs, const auto& key) {
+    std::vector<PairKey> result;
+    for (const auto& pair : pairs) result.push_back(key(pair));
+    return result;
+  };
+  using Keys = std::vector<PairKey>;
+  EXPECT_EQ(keys(read.simulation.run.pairs, [](const auto& pair) { return pair.first; }),
+            (Keys{{0, 3}, {1, 4}, {2, 3}, {3, 5}}));
+  EXPECT_EQ(keys(read.simulation.run.records,
+                 [](const auto& record) {
+                   return PairKey{record.a, record.b};
+                 }),
+            (Keys{{0, 3}, {2, 3}, {3, 5}}));
+  const PairHistory& other = read.simulation.run.pairs.at({1, 4});
+  EXPECT_TRUE(other.memory.empty() && other.cache == nullptr);
+  EXPECT_EQ(other.overlap, 1e-3);
+  EXPECT_EQ(read.simulation.run.pairs.at({3, 5}).memory.entries().size(),
+            written.simulation.run.pairs.at({3, 5}).memory.entries().size());
+  const RunCheckpoint all =
+      read_checkpoint(folder / "checkpoint", scene_hash, [](const PairKey&) { return true; });
+  write_checkpoint(folder / "again", scene_hash, all);
+  EXPECT_EQ(read_text(folder / "again"), read_text(folder / "checkpoint"));
+}
+
 TEST(RunCheckpoint, TheFirstOfSeveralRanksWritesThePairsOfAll) {
   const TemporaryFolder folder;
   const Scene scene = wall(5, 6);
