@@ -82,12 +82,18 @@ void CheckpointSaver::save(const Run& run) {
 }
 
 void CheckpointSaver::write(const Run& run) {
-  RunCheckpoint checkpoint = run.checkpoint();
-  if (!recorder_) return;
-  recorder_->claim().check();
-  checkpoint.folder = recorder_->synced_state();
-  state_bytes_ =
-      write_checkpoint(recorder_->claim().folder() / checkpoint_name, run.identity().scene, checkpoint);
+  RunCheckpoint checkpoint = run.checkpoint_without_pairs();
+  PairsOfRun pairs = run.simulation().pairs_of_run();
+  if (!recorder_) return pairs.finish();
+  try {
+    recorder_->claim().check();
+    checkpoint.folder = recorder_->synced_state();
+  } catch (...) {
+    pairs.finish();
+    throw;
+  }
+  state_bytes_ = write_checkpoint(recorder_->claim().folder() / checkpoint_name, run.identity().scene,
+                                  checkpoint, &pairs);
   saved_ = true;
 }
 

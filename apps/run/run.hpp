@@ -148,6 +148,8 @@ class Run {
 
   /// Data for a checkpoint between two steps, without those of the folder.
   [[nodiscard]] RunCheckpoint checkpoint() const;
+  /// The same without pairs and records of the simulation (Simulation::pairs_of_run).
+  [[nodiscard]] RunCheckpoint checkpoint_without_pairs() const;
   /// Largest values, with displacements relative to the last reset by a stage.
   [[nodiscard]] LargestValues largest() const;
   /// Errors of the orders of blocks: of a dynamic run at present, of a static analysis in equilibrium. Empty: others

@@ -177,6 +177,10 @@ RunCheckpoint Run::checkpoint() const {
   return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_, accuracy_};
 }
 
+RunCheckpoint Run::checkpoint_without_pairs() const {
+  return {built_.simulation.snapshot_without_pairs(), finished_, {}, clock_.seconds(), changes_, accuracy_};
+}
+
 LargestValues Run::largest() const {
   if (recorder_ && recorder_->begun()) return recorder_->largest(simulation());
   return largest_values(simulation(), drawn_blocks(simulation().blocks(), whole().output).surfaces,

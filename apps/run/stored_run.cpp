@@ -17,9 +17,9 @@
 namespace ashlar {
 
 RunCheckpoint stored_checkpoint(const std::filesystem::path& folder, const Scene& scene,
-                                const SceneIdentity& identity) {
+                                const SceneIdentity& identity, const NeededPairs& needed) {
   try {
-    return read_checkpoint(folder / checkpoint_name, identity.scene);
+    return read_checkpoint(folder / checkpoint_name, identity.scene, needed);
   } catch (const OtherSceneError& error) {
     throw OtherSceneError(error.what() + changes_since(folder, scene, identity));
   }

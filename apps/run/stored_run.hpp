@@ -10,10 +10,11 @@
 
 namespace ashlar {
 
-/// The checkpoint of a folder. @param scene the whole one
+/// The checkpoint of a folder. @param scene the whole one. @param needed see read_checkpoint()
 /// @throws CheckpointError; that of another scene tells what has changed
 [[nodiscard]] RunCheckpoint stored_checkpoint(const std::filesystem::path& folder, const Scene& scene,
-                                              const SceneIdentity& identity);
+                                              const SceneIdentity& identity,
+                                              const NeededPairs& needed = nullptr);
 
 /// "; changed: KEY (was A, is B), mesh FILE has changed, ..." from the summary of the earlier run in a result folder;
 /// empty without a summary or differences.

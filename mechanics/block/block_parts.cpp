@@ -1,6 +1,7 @@
 #include "mechanics/block/block_parts.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
@@ -112,6 +113,13 @@ BlockParts::BlockParts(const Polyhedron& solid, const PolynomialBasis& basis,
     reduced_stiffness = space.restrict(stiffness);
   if (definition.order > 0 && definition.material.elasticity == Elasticity::st_venant_kirchhoff)
     large = large_strains(solid, basis, definition.material);
+}
+
+std::vector<std::size_t> BlockPartsLibrary::kinds() const {
+  std::vector<std::size_t> kinds;
+  kinds.reserve(parts_.size());
+  for (const auto& [key, parts] : parts_) kinds.push_back(std::hash<std::string>()(key));
+  return kinds;
 }
 
 BlockPartsLibrary::Found BlockPartsLibrary::find(const BlockDefinition& definition) {

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "mechanics/basis/basis.hpp"
 #include "mechanics/block/block_definition.hpp"
@@ -43,6 +44,8 @@ class BlockPartsLibrary {
   [[nodiscard]] Found find(const BlockDefinition& definition);
   /// Number of blocks that differed from all before them.
   [[nodiscard]] std::size_t size() const { return parts_.size(); }
+  /// A hash of each of those: equal blocks have equal ones in all libraries of one program.
+  [[nodiscard]] std::vector<std::size_t> kinds() const;
 
  private:
   std::map<std::string, PolynomialBasis> bases_;  ///< by shape and order

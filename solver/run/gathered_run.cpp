@@ -1,7 +1,6 @@
 #include "solver/run/gathered_run.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -105,14 +104,16 @@ std::vector<BlockState> states_of_run(const Simulation& simulation, const Result
 std::vector<PairRecord> contacts_of_run(const Simulation& simulation, const ResultNeeds& needs) {
   const BlockSystem& system = simulation.system();
   if (system.share() == nullptr) return simulation.contacts();
-  std::vector<PairRecord> own;
+  std::vector<const PairRecord*> own;
   const auto needed = [&](const PairKey& blocks) {
     return needs.all || std::binary_search(needs.pairs.begin(), needs.pairs.end(), blocks);
   };
   for (const PairRecord& record : simulation.contacts())
-    if (system.owns_pair(record.a, record.b) && needed({record.a, record.b})) own.push_back(record);
+    if (system.owns_pair(record.a, record.b) && needed({record.a, record.b})) own.push_back(&record);
   Ranks& ranks = system.share()->ranks();
-  std::vector<PairRecord> all = ranks.own() == 0 ? own : std::vector<PairRecord>();
+  std::vector<PairRecord> all;
+  if (ranks.own() == 0)
+    for (const PairRecord* record : own) all.push_back(*record);
   std::size_t sent = 0;
   // Messages with all pairs would need as much memory again on the first rank.
   const std::size_t most = at(std::max(1, records_at_a_time / ranks.count()));
@@ -120,14 +121,10 @@ std::vector<PairRecord> contacts_of_run(const Simulation& simulation, const Resu
     send_to_first(
         ranks,
         [&](ByteWriter& writer) {
-          const auto first = own.begin() + static_cast<std::ptrdiff_t>(sent);
-          sent = std::min(sent + most, own.size());
-          writer(std::vector<PairRecord>(first, own.begin() + static_cast<std::ptrdiff_t>(sent)));
+          for (std::size_t left = most; left > 0 && sent < own.size(); --left) writer(*own[sent++]);
         },
         [&](ByteReader& reader, int) {
-          std::vector<PairRecord> others;
-          reader(others);
-          std::move(others.begin(), others.end(), std::back_inserter(all));
+          while (!reader.at_end()) reader(all.emplace_back());
         });
   }
   std::sort(all.begin(), all.end(), [](const PairRecord& x, const PairRecord& y) {

@@ -8,6 +8,7 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
+#include "solver/ranks/counted_traffic.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/contact_explanation.hpp"
 #include "solver/run/gathered_run.hpp"
@@ -29,24 +30,6 @@
 #include "solver/step/sleeping_islands.hpp"
 
 namespace ashlar {
-namespace {
-
-/// Counts messages for results while it exists.
-class TrafficOfResults {
- public:
-  explicit TrafficOfResults(SharedBlocks& shared)
-      : shared_(shared), before_(shared.share->ranks().traffic()) {}
-  ~TrafficOfResults() { shared_.for_results += shared_.share->ranks().traffic().since(before_); }
-  TrafficOfResults(const TrafficOfResults&) = delete;
-  TrafficOfResults& operator=(const TrafficOfResults&) = delete;
-
- private:
-  SharedBlocks& shared_;
-  RankTraffic before_;
-};
-
-}  // namespace
-
 Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions,
                        LawOfPair law, const SimulationSettings& settings, const std::vector<TieRequest>& ties,
                        std::vector<bool> absent)
@@ -90,7 +73,7 @@ RunContext Simulation::context() {
 void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& shown) {
   told_.reset();
   if (shared_ == nullptr) return;
-  const TrafficOfResults traffic(*shared_);
+  const CountedTraffic traffic(system_.share()->ranks(), shared_->for_results);
   ToldResults told{totals_of_run(*this, shown), {}, {}};
   const bool first = system_.share()->ranks().own() == 0;
   send_bolts_to_first(system_, state_);
@@ -248,9 +231,11 @@ void Simulation::start_stage(const Simulation& last) {
   refuse_late("start_stage");
   told_.reset();
   const bool first = system_.share()->ranks().own() == 0;
-  SimulationSnapshot end = last.snapshot();
+  SimulationSnapshot end = last.snapshot_without_pairs();
   if (!first) end = {};
   end = std::move(values_of_ranks(system_.share()->ranks(), end).front());
+  PairsOfRun pairs = last.pairs_of_run(PairVisitors::all);
+  add_pairs_of_rank(system_, pairs, end);
   ashlar::start_stage(context(), end, last.system_.absent());
   // The snapshot has sums of all ranks.
   state_.report = last.state_.report;
@@ -332,10 +317,26 @@ ContactExplanation Simulation::explain_contacts(int a, int b) const {
 }
 
 SimulationSnapshot Simulation::snapshot() const {
-  SimulationSnapshot part = snapshot_of(system_, state_, caches_);
+  SimulationSnapshot result = snapshot_without_pairs();
+  PairsOfRun pairs = pairs_of_run();
+  pairs.visit_histories([](std::size_t) {},
+                        [&result](const PairKey& blocks, const PairHistory& history) {
+                          result.run.pairs.emplace_hint(result.run.pairs.end(), blocks, history);
+                        });
+  pairs.visit_records([&result](std::size_t count) { result.run.records.reserve(count); },
+                      [&result](const PairRecord& record) { result.run.records.push_back(record); });
+  return result;
+}
+
+SimulationSnapshot Simulation::snapshot_without_pairs() const {
+  SimulationSnapshot part = ashlar::snapshot_without_pairs(system_, state_, caches_);
   if (shared_ == nullptr) return part;
-  const TrafficOfResults traffic(*shared_);
-  return whole_snapshot(system_, std::move(part), told_ ? &told_->totals : nullptr);
+  const CountedTraffic traffic(system_.share()->ranks(), shared_->for_results);
+  return whole_without_pairs(system_, std::move(part), told_ ? &told_->totals : nullptr);
+}
+
+PairsOfRun Simulation::pairs_of_run(PairVisitors visitors) const {
+  return {system_, state_, shared_ ? &shared_->for_results : nullptr, visitors};
 }
 
 void Simulation::restore(const SimulationSnapshot& snapshot) {

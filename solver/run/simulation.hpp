@@ -19,6 +19,7 @@
 #include "solver/step/block_changes.hpp"
 #include "solver/step/dynamic_step.hpp"
 #include "solver/step/ghosts.hpp"
+#include "solver/step/pairs_of_run.hpp"
 #include "solver/step/run_context.hpp"
 
 namespace ashlar {
@@ -170,6 +171,10 @@ class Simulation {
   /// (step/shared_snapshot.hpp): the first rank has the snapshot of the run after gather_results(), however little it asked
   /// for, and all restore it.
   [[nodiscard]] SimulationSnapshot snapshot() const;
+  /// The same without pairs and records. Collective
+  [[nodiscard]] SimulationSnapshot snapshot_without_pairs() const;
+  /// Those, to be written as they come from other ranks. They are those of the present state while it does not change
+  [[nodiscard]] PairsOfRun pairs_of_run(PairVisitors visitors = PairVisitors::first) const;
   /// @throws std::invalid_argument if the snapshot was taken of other blocks.
   void restore(const SimulationSnapshot& snapshot);
 

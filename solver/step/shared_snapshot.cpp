@@ -58,11 +58,8 @@ std::vector<bool> fixed_blocks(const BlockSystem& system) {
   return fixed;
 }
 
-/// Removes pairs and bolts that other ranks tell.
+/// Removes bolts and sliding pairs that other ranks tell.
 void keep_own(const BlockSystem& system, RunState& run) {
-  std::erase_if(run.pairs,
-                [&](const auto& entry) { return !system.owns_pair(entry.first[0], entry.first[1]); });
-  std::erase_if(run.records, [&](const PairRecord& record) { return !system.owns_pair(record.a, record.b); });
   std::erase_if(run.statics.onset.sliding,
                 [&](const PairKey& pair) { return !system.owns_pair(pair[0], pair[1]); });
   for (std::size_t k = 0; k < run.bolts.size(); ++k)
@@ -106,46 +103,6 @@ void merge_values(const BlockShare& share, int rank, SimulationSnapshot of_rank,
   sliding.insert(sliding.end(), others.begin(), others.end());
 }
 
-/// Pairs of all ranks in one exchange: a pair of bricks takes 20 to 30 kB.
-constexpr int pairs_at_a_time = 512;
-
-/// Adds the pairs of all ranks to those of the first one, some at a time: messages with all of them would need as much
-/// memory again there. Collective. @param run with own pairs only
-void send_pairs(Ranks& ranks, RunState& run) {
-  const int most = std::max(1, pairs_at_a_time / ranks.count());
-  auto pair = run.pairs.cbegin();
-  std::size_t record = 0;
-  const auto unsent = [&] {
-    return ranks.own() > 0 && (pair != run.pairs.cend() || record < run.records.size());
-  };
-  while (any_rank(ranks, unsent())) {
-    send_to_first(
-        ranks,
-        [&](ByteWriter& writer) {
-          PairHistories pairs;
-          std::vector<PairRecord> records;
-          for (int count = 0; count < most && unsent(); ++count) {
-            if (pair != run.pairs.cend())
-              pairs.insert(*pair++);
-            else
-              records.push_back(run.records[record++]);
-          }
-          writer(pairs, records);
-        },
-        [&](ByteReader& reader, int) {
-          PairHistories pairs;
-          std::vector<PairRecord> records;
-          reader(pairs, records);
-          for (auto& [blocks, history] : pairs) {
-            // A rank with one of two blocks may know their overlap alone.
-            PairHistory& known = run.pairs[blocks];
-            if (known.memory.empty() && known.work == 0.0) known = std::move(history);
-          }
-          std::move(records.begin(), records.end(), std::back_inserter(run.records));
-        });
-  }
-}
-
 /// Tracks and divisions of the blocks that a rank has.
 FinderState finder_state_here(const BlockSystem& system, const ContactFinder& finder,
                               const SimulationSnapshot& whole, bool first) {
@@ -162,8 +119,8 @@ FinderState finder_state_here(const BlockSystem& system, const ContactFinder& fi
 /// The part of a whole snapshot without pairs, for the blocks that are here.
 SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState& state,
                                       const StepCaches& caches, const SimulationSnapshot& whole, bool first) {
-  const SimulationSnapshot present = snapshot_of(system, state, caches);
-  SimulationSnapshot part = whole;
+  const SimulationSnapshot present = snapshot_without_pairs(system, state, caches);
+  SimulationSnapshot part = without_pairs(whole);
   for (int k = 0; k < system.count(); ++k)
     if (!system.here(k)) take_block(present, k, part, {k, system.count()});
   part.finder = finder_state_here(system, caches.contacts.finder(), whole, first);
@@ -171,8 +128,6 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
     return system.here(block) || system.blocks()[at(block)].incremental() != nullptr;
   });
   part.factors.clear();
-  part.run.pairs.clear();
-  part.run.records.clear();
   // Depths are measured anew.
   part.run.depths = state.depths;
   if (first) return part;
@@ -187,8 +142,8 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
 
 }  // namespace
 
-SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
-                                  const RunTotals* totals) {
+SimulationSnapshot whole_without_pairs(const BlockSystem& system, SimulationSnapshot part,
+                                       const RunTotals* totals) {
   const BlockShare& share = *system.share();
   keep_own(system, part.run);
   keep_changes(part, [&](int block) { return system.owns(block); });
@@ -201,12 +156,8 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
         reader(other);
         merge_values(share, rank, std::move(other), part);
       });
-  send_pairs(share.ranks(), part.run);
   if (share.ranks().own() > 0) return part;
   if (totals == nullptr) throw std::logic_error("results are gathered before a snapshot of several ranks");
-  std::sort(part.run.records.begin(), part.run.records.end(), [](const PairRecord& x, const PairRecord& y) {
-    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
-  });
   std::sort(part.run.statics.onset.sliding.begin(), part.run.statics.onset.sliding.end());
   part.run.ledger.set(totals->ledger, balance);
   part.run.report = totals->report;
@@ -215,6 +166,21 @@ SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot 
   part.finder.counts = totals->counts.finder;
   part.run.depths = {};
   return part;
+}
+
+void add_pairs_of_rank(const BlockSystem& system, PairsOfRun& pairs, SimulationSnapshot& whole) {
+  const auto is_own = [&system](int a, int b) { return system.owns(a) || system.owns(b); };
+  pairs.visit_histories([](std::size_t) {},
+                        [&](const PairKey& blocks, const PairHistory& history) {
+                          if (is_own(blocks[0], blocks[1]))
+                            whole.run.pairs.insert_or_assign(blocks, history);
+                          else if (history.overlap > 0.0)
+                            whole.run.pairs[blocks].overlap = history.overlap;
+                        });
+  pairs.visit_records([](std::size_t) {},
+                      [&](const PairRecord& record) {
+                        if (is_own(record.a, record.b)) whole.run.records.push_back(record);
+                      });
 }
 
 void take_histories(const BlockSystem& system, const PairHistories& whole,

@@ -6,15 +6,21 @@
 
 #include "solver/run/run_totals.hpp"
 #include "solver/step/ghosts.hpp"
+#include "solver/step/pairs_of_run.hpp"
 #include "solver/step/snapshot.hpp"
 
 namespace ashlar {
 
-/// Puts the snapshots of all ranks together, without factors. Collective. @param part snapshot_of() on this rank
-/// @param totals of the run, on the first rank; null on others
+/// Puts the snapshots of all ranks together, without factors; for pairs see pairs_of_run.hpp. Collective.
+/// @param part snapshot_without_pairs() on this rank. @param totals of the run, on the first rank; null on others
 /// @return on the first rank that of the run, on others `part`
-[[nodiscard]] SimulationSnapshot whole_snapshot(const BlockSystem& system, SimulationSnapshot part,
-                                                const RunTotals* totals);
+[[nodiscard]] SimulationSnapshot whole_without_pairs(const BlockSystem& system, SimulationSnapshot part,
+                                                     const RunTotals* totals);
+
+/// Adds pairs of a run to a snapshot of it, as far as this rank may need them: histories and records of pairs with an own
+/// block, initial overlaps of all. Collective. @param system of this rank, possibly with other owners than the run
+/// @param pairs that all ranks visit
+void add_pairs_of_rank(const BlockSystem& system, PairsOfRun& pairs, SimulationSnapshot& whole);
 
 /// Hands over the histories that this rank needs of those of all pairs: whole ones of pairs of an own block and one that is here; of other
 /// pairs that it makes the sums only, as if the other block had gone away. All ranks know initial overlaps. Collective.

@@ -38,6 +38,15 @@ std::map<int, int> changed_orders(const BlockSystem& system, const RunState& sta
   return orders;
 }
 
+/// A copy of all members but pairs and records.
+RunState state_without_pairs(const RunState& state) {
+  const auto& [clock, next_step, steps, remembers_statics, states, accelerations, spin_debts, pairs, depths,
+               bolts, statics, sleep, ledger, report, records, extremes, log] = state;
+  return {clock, next_step, steps, remembers_statics, states, accelerations, spin_debts,
+          {},    depths,    bolts, statics,           sleep,  ledger,        report,
+          {},    extremes,  log};
+}
+
 }  // namespace
 
 SimulationCounts counts_of(const RunState& state, const StepCaches& caches) {
@@ -48,7 +57,15 @@ SimulationCounts counts_of(const RunState& state, const StepCaches& caches) {
 }
 
 SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state, const StepCaches& caches) {
-  SimulationSnapshot result{state,
+  SimulationSnapshot result = snapshot_without_pairs(system, state, caches);
+  result.run.pairs = state.pairs;
+  result.run.records = state.records;
+  return result;
+}
+
+SimulationSnapshot snapshot_without_pairs(const BlockSystem& system, const RunState& state,
+                                          const StepCaches& caches) {
+  SimulationSnapshot result{state_without_pairs(state),
                             {},
                             caches.contacts.finder().state(),
                             caches.factors.islands.kept(),
@@ -60,6 +77,11 @@ SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state,
     if (block.incremental() != nullptr) result.carried.emplace(k, block.carried());
   }
   return result;
+}
+
+SimulationSnapshot without_pairs(const SimulationSnapshot& snapshot) {
+  const auto& [run, carried, finder, factors, load_factors, reactions] = snapshot;
+  return {state_without_pairs(run), carried, finder, factors, load_factors, reactions};
 }
 
 void restore(BlockSystem& system, RunState& state, StepCaches& caches, const SimulationSnapshot& snapshot) {

@@ -25,6 +25,11 @@ struct SimulationSnapshot {
 
 [[nodiscard]] SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state,
                                              const StepCaches& caches);
+/// The same without pairs and records, which are the larger part of it.
+[[nodiscard]] SimulationSnapshot snapshot_without_pairs(const BlockSystem& system, const RunState& state,
+                                                        const StepCaches& caches);
+/// A copy without pairs and records.
+[[nodiscard]] SimulationSnapshot without_pairs(const SimulationSnapshot& snapshot);
 /// @throws std::invalid_argument if the snapshot was taken of other blocks: nothing has changed then
 void restore(BlockSystem& system, RunState& state, StepCaches& caches, const SimulationSnapshot& snapshot);
 

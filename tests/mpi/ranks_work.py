@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from ranks_runs import LONGEST, Program, RanksTest, command, run, table
+from ranks_runs import BAD_INPUT, LONGEST, Program, RanksTest, command, run, table
 
 
 class WorkTest(RanksTest):
@@ -21,6 +21,34 @@ class WorkTest(RanksTest):
         for rank in ranks:
             self.assertLess(rank["ghosts"], blocks / 2)
             self.assertGreater(rank["bytes_sent"], 0)
+
+    def test_equal_blocks_are_counted_once_on_many_ranks(self):
+        """The wall has a ground, whole bricks and halves, a few of each on every rank."""
+        counts = {}
+        for count in (0, 1, 3):
+            out = self.folder / str(count)
+            status, _, errors = run(count, "run", self.scene("wall"), "--set", "analysis.end_time=0.002", "--quiet", "--out", out)
+            self.assertEqual(status, 0, errors)
+            counts[count] = json.loads((out / "summary.json").read_text())["counts"]["different_blocks"]
+        self.assertEqual(counts[1], counts[0])
+        self.assertEqual(counts[3], counts[0])
+
+    def test_the_memory_limit_is_that_of_a_rank(self):
+        """150 bricks: estimated at more than 80 MB for one process, at less for each of four."""
+        scene = self.folder / "wall.toml"
+        scene.write_text('''
+analysis = { end_time = 1e-3, time_step = 1e-3, memory_limit = 8e7 }
+contact = { friction_angle = 35 }
+material = [{ name = "brick", density = 2000, young_modulus = 5e7, poisson_ratio = 0.2 }]
+block = [{ name = "ground", fixed = true, box = { min = [-1, -1, -0.2], max = [7, 1, 0] } }]
+masonry = [{ name = "wall", kind = "wall", material = "brick", length = 6, height = 1.8, brick = [0.5, 0.25, 0.15] }]
+''', encoding="utf-8")
+        status, _, errors = run(0, "run", scene, "--out", self.folder / "alone")
+        self.assertEqual(status, BAD_INPUT, errors)
+        self.assertIn("scene is too large", errors)
+        status, _, errors = run(4, "run", scene, "--out", self.folder / "shared")
+        self.assertEqual(status, 0, errors)
+        self.assertIn("MB on each of 4 ranks", errors)
 
     def test_results_are_sent_when_they_are_due(self):
         """Two frames and no rows between them: states and contacts of all blocks are sent for these only."""

@@ -13,6 +13,7 @@
 #include "apps/program/run/contact_report.hpp"
 #include "apps/program/run/rank_agreement.hpp"
 #include "apps/program/view/view_file.hpp"
+#include "apps/run/answer_search.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_messages.hpp"
@@ -47,11 +48,20 @@ int exit_status_of(RunStatus status) {
   return exit_status::failed;
 }
 
+/// The pairs that a run needs of its checkpoint: of several ranks those of own blocks. All, if blocks may have other owners
+/// then: in later stages, and in the motion that a search shows at its end.
+NeededPairs pairs_needed_by(const Run& run) {
+  const BlockSystem& system = run.simulation().system();
+  if (system.share() == nullptr || !run.whole().stage.empty() || seeks_answer(run.whole().analysis))
+    return nullptr;
+  return [&system](const PairKey& blocks) { return system.owns(blocks[0]) || system.owns(blocks[1]); };
+}
+
 /// The checkpoint that a run continues from. A fault that prevents it is reported at the file.
 std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const Run& run,
                                              Diagnostics& diagnostics) {
   try {
-    return stored_checkpoint(folder, run.whole(), run.identity());
+    return stored_checkpoint(folder, run.whole(), run.identity(), pairs_needed_by(run));
   } catch (const CheckpointError& error) {
     diagnostics.error({(folder / checkpoint_name).string()}, error.what());
     return std::nullopt;
@@ -110,10 +120,11 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
   if (are_several(ranks)) refuse_for_ranks(options, diagnostics);
   if (!diagnostics.good()) return prepared;
   Preparation preparation(options.quiet || !is_first(ranks), err);
+  const int count = ranks == nullptr ? 1 : ranks->ranks.count();
   std::optional<LoadedScene> loaded =
       options.text
-          ? load_scene_text(*options.text, options.scene, options.overrides, diagnostics, &preparation)
-          : load_scene(options.scene, options.overrides, diagnostics, &preparation);
+          ? load_scene_text(*options.text, options.scene, options.overrides, diagnostics, &preparation, count)
+          : load_scene(options.scene, options.overrides, diagnostics, &preparation, LoadPurpose::run, count);
   if (are_several(ranks) && any_rank(ranks->ranks, !loaded)) return prepared;
   if (!loaded) return prepared;
   const auto scene = std::make_shared<const LoadedScene>(std::move(*loaded));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_outcome.hpp"
 #include "solver/run/checkpoint.hpp"
+#include "solver/step/pairs_of_run.hpp"
 
 namespace ashlar {
 
@@ -42,12 +44,19 @@ struct OtherSceneError : CheckpointError {
 [[nodiscard]] std::uint32_t checkpoint_layout();
 
 /// Replaces the file as a whole; it survives a power failure. @param hash of the scene (scene_identity.hpp).
+/// @param pairs that are visited as they are written, in place of those of the checkpoint's simulation; null: none.
+/// Collective then (pairs_of_run.hpp), and after a failure the visits are finished
 /// @return its bytes
 /// @throws std::runtime_error with path and reason
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
-                                const RunCheckpoint& checkpoint);
+                                const RunCheckpoint& checkpoint, PairsOfRun* pairs = nullptr);
 
-/// @param hash of the scene to be continued. @throws CheckpointError
-[[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash);
+/// Pairs of a checkpoint that a reader needs; empty: all.
+using NeededPairs = std::function<bool(const PairKey& blocks)>;
+
+/// @param hash of the scene to be continued. @param needed of other pairs only the initial overlap is kept
+/// @throws CheckpointError
+[[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                            const NeededPairs& needed = nullptr);
 
 }  // namespace ashlar

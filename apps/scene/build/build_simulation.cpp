@@ -10,21 +10,16 @@
 #include <numbers>
 #include <type_traits>
 
-#include "apps/scene/build/block_material.hpp"
+#include "apps/scene/build/block_survey.hpp"
 #include "apps/scene/build/bolts_of_scene.hpp"
 #include "apps/scene/build/initial_state.hpp"
 #include "apps/scene/build/joint_selection.hpp"
-#include "apps/scene/build/limit_choices.hpp"
-#include "apps/scene/build/quiet_boundaries.hpp"
+#include "apps/scene/build/scene_models.hpp"
 #include "apps/scene/build/stress_field.hpp"
 #include "apps/scene/build/tied_joints.hpp"
-#include "apps/scene/build/water_loads.hpp"
 #include "apps/scene/check/rank_checks.hpp"
-#include "apps/scene/check/turned_supports.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
-#include "apps/scene/model/support_history.hpp"
-#include "apps/scene/toml/formulas.hpp"
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
 #include "solver/bolts/bolted_blocks.hpp"
@@ -32,57 +27,6 @@
 
 namespace ashlar {
 namespace {
-
-template <class Where>
-BlockPlace place_of(const Where& where) {
-  if (const auto* plane = std::get_if<ScenePlane>(&where)) return Plane{plane->point, plane->normal};
-  return std::get<Vector3>(where);
-}
-
-/// @param load_factor of the block's loads
-BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, double load_factor,
-                             const WaterLoads& water, const QuietBoundaries& boundaries) {
-  const Scene& scene = loaded.scene;
-  const SceneBlock& block = scene.block[index];
-  BlockDefinition definition;
-  definition.name = block.name;
-  definition.shape = loaded.shapes[index];
-  definition.solid = block.translate.isZero(0.0) ? loaded.shapes[index]
-                                                 : std::make_shared<const Polyhedron>(loaded.solids[index]);
-  definition.order = block.order;
-  definition.fixed = block.fixed;
-  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
-    definition.formulation = Formulation::incremental;
-    definition.sub_face_levels = scene.contact.subdivisions.value_or(definition.sub_face_levels);
-    for (const SceneMeasure& measure : scene.measure) {
-      if (measure.block == block.name && measure.point) definition.followed.push_back(*measure.point);
-    }
-  }
-  definition.material = material_of(scene, index);
-  for (const SceneFix& fix : block.fix) {
-    definition.supports.push_back({place_of(fix.where), fix.components, support_history(fix)});
-  }
-  for (const SceneLoad& load : block.load) {
-    History history;
-    for (const auto& point : load.history) {
-      history.times.push_back(point.time);
-      history.values.push_back(point.factor);
-    }
-    definition.loads.push_back({place_of(load.where), load.kind == SceneLoad::Kind::traction,
-                                load_factor * load.vector, std::move(history)});
-    if (load.field.given())
-      definition.loads.back().field = [load_factor, at = load.field.at](const Vector3& place) {
-        const std::vector<double> value = at(place);
-        return Vector3(load_factor * Vector3(value[0], value[1], value[2]));
-      };
-  }
-  if (!block.fixed) definition.initial_stress = initial_stress_of(scene, index, loaded.stage);
-  definition.quiet = boundaries.of_block(scene, loaded.solids[index], index);
-  // After those of the scene, whose numbers stay.
-  if (Load pressure = water.of_block(index); !pressure.parts.empty())
-    definition.loads.push_back(std::move(pressure));
-  return definition;
-}
 
 Integrator integrator_of(SceneAnalysis::Integrator integrator) {
   switch (integrator) {
@@ -107,7 +51,7 @@ SimulationSettings time_settings(const SceneAnalysis& analysis) {
   return settings;
 }
 
-SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>& blocks, int threads,
+SimulationSettings settings_of(const Scene& scene, const std::vector<BlockSummary>& blocks, int threads,
                                std::vector<AutomaticChoice>& choices) {
   const AutomaticRatios ratios;
   SimulationSettings settings = time_settings(scene.analysis);
@@ -124,7 +68,7 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   settings.threads = threads;
 
   double smallest = std::numeric_limits<double>::infinity();
-  for (const BlockModel& block : blocks) smallest = std::min(smallest, block_size(block));
+  for (const BlockSummary& block : blocks) smallest = std::min(smallest, block.stiffness.size);
   const auto choose = [&](const auto& given, auto automatic, const char* key, const char* unit) {
     if (given) return static_cast<double>(*given);
     choices.push_back({key, static_cast<double>(automatic), unit});
@@ -142,8 +86,8 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
                "contact.penetration_tolerance", "m");
   }
   settings.depth.allowed_depth = scene.contact.allowed_depth.value_or(0.0);
-  const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
-    return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
+  const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockSummary& block) {
+    return !block.fixed() && block.order >= 2 && !block.incremental;
   });
   // Springs at corners alone would miss bending between them.
   settings.search.subdivisions =
@@ -168,7 +112,7 @@ JointLaw reduced(JointLaw law, double factor) {
 /// Laws between blocks.
 class JointLaws {
  public:
-  JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks,
+  JointLaws(const Scene& scene, const std::vector<BlockSummary>& blocks,
             std::shared_ptr<const JointTable> table, double strength_factor,
             std::vector<AutomaticChoice>& choices)
       : area_(scene.contact.springs == SceneContact::Springs::area),
@@ -178,7 +122,7 @@ class JointLaws {
         strength_factor_(strength_factor),
         reduced_(scene, scene.analysis.safety.of) {
     source_.reserve(blocks.size());
-    for (const BlockModel& block : blocks) source_.push_back(stiffness_source(block));
+    for (const BlockSummary& block : blocks) source_.push_back(block.stiffness);
     if (!multipliers_ || asked_for_) note_choices(kinds_of_blocks(scene), choices);
   }
 
@@ -307,41 +251,15 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                                                 const TrialFactors& factors, const RunRanks* ranks) {
   const Scene& scene = loaded.scene;
   if (ranks != nullptr && ranks->several()) check_for_ranks(scene, diagnostics);
-  std::vector<BlockModel> blocks;
-  std::vector<InitialMotion> motions;
-  BlockPartsLibrary parts;
   if (preparation != nullptr && !scene.water.empty()) preparation->phase("pressure of water");
-  const auto water = std::make_shared<const WaterLoads>(loaded, diagnostics);
-  const auto boundaries = std::make_shared<const QuietBoundaries>(scene, loaded.solids,
-                                                                  time_settings(scene.analysis), diagnostics);
+  const auto models =
+      std::make_shared<const SceneModels>(loaded, time_settings(scene.analysis), factors.load, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
-  const auto define = [&loaded, water, boundaries, multiplied = multiplied_blocks(scene),
-                       factor = factors.load](int block) {
-    const std::size_t k = at(block);
-    return define_block(loaded, k, multiplied[k] ? factor : 1.0, *water, *boundaries);
-  };
-  for (std::size_t k = 0; k < scene.block.size(); ++k) {
-    const SceneBlock& block = scene.block[k];
-    if (preparation != nullptr)
-      preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
-    try {
-      blocks.emplace_back(define(static_cast<int>(k)), parts);
-    } catch (const OrderTooHigh& error) {
-      diagnostics.error(
-          scene.places.value(fmt::format("block.{}.order", k)),
-          fmt::format(
-              "order is too high for the shape of block {} in double precision ({}), at most {} is allowed",
-              block.name, block.order, error.highest_safe_order));
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      diagnostics.error(scene.places.key(fmt::format("block.{}", k)),
-                        fmt::format("block cannot be modelled ({}): {}", block.name, error.what()));
-    }
-    motions.push_back({block.velocity, block.angular_velocity});
-  }
-  if (!diagnostics.good()) return std::nullopt;
-  warn_of_turned_supports(scene, blocks, diagnostics);
+  std::optional<BlockSurvey> survey = survey_blocks(*models, ranks, diagnostics, preparation);
+  if (!survey) return std::nullopt;
+  const std::vector<BlockSummary>& blocks = survey->blocks;
+  std::vector<InitialMotion> motions;
+  for (const SceneBlock& block : scene.block) motions.push_back({block.velocity, block.angular_velocity});
   if (preparation != nullptr) preparation->phase("surfaces and neighbours of all blocks");
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
@@ -353,25 +271,26 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                       "blocks of the incremental formulation cannot be tied");
     return std::nullopt;
   }
-  const BlockLoader again = [define, library = std::make_shared<BlockPartsLibrary>()](int block) {
-    return BlockModel(define(block), *library);
+  const BlockLoader load = [models, library = std::make_shared<BlockPartsLibrary>()](int block) {
+    return models->model(at(block), *library);
   };
   std::vector<Bolt> bolts;
   if (!scene.bolt.empty() || !scene.prop.empty()) bolts = bolts_of(loaded);
   std::vector<std::vector<int>> bolted;
   for (const Bolt& bolt : bolts) bolted.push_back(present_blocks(bolt.chain));
-  BuiltSimulation built{simulation_of(ranks,
-                                      {std::move(blocks), std::move(motions), std::move(laws), settings, ties,
-                                       scene.absent, std::move(bolted)},
-                                      again),
-                        std::move(choices),
-                        parts.size(),
-                        {},
-                        loaded.overlaps};
+  BuiltSimulation built{
+      simulation_of(ranks,
+                    {std::move(survey->blocks), std::move(survey->models), std::move(motions),
+                     std::move(laws), settings, ties, scene.absent, std::move(bolted)},
+                    load),
+      std::move(choices),
+      survey->different,
+      {},
+      loaded.overlaps};
   built.simulation.start_overlapping(depths_without_force(loaded));
   if (!scene.water.empty())
-    built.simulation.set_joint_pressure([water](int a, int b, const Vector3& place) {
-      return water->in_joint(static_cast<std::size_t>(a), static_cast<std::size_t>(b), place);
+    built.simulation.set_joint_pressure([water = models->water()](int a, int b, const Vector3& place) {
+      return water->in_joint(at(a), at(b), place);
     });
   // Later stages begin with the contacts of the one before.
   if (scene.initial_stress.given() && loaded.stage == 0)

@@ -26,12 +26,11 @@ void add_bolted(const std::vector<std::vector<int>>& bolted, std::vector<std::ar
 /// the first step. Absent blocks have no neighbours.
 std::vector<PartitionBlock> blocks_to_share(const SimulationParts& parts, const Ranks& ranks) {
   constexpr int points = 4;
-  const std::vector<BlockModel>& blocks = parts.blocks;
+  const std::vector<BlockSummary>& blocks = parts.blocks;
   const double distance = parts.settings.contact_distance;
   std::vector<Box> boxes;
   boxes.reserve(blocks.size());
-  for (const BlockModel& block : blocks)
-    boxes.push_back(box_of(block.solid().mesh().points).grown(0.5 * distance));
+  for (const BlockSummary& block : blocks) boxes.push_back(block.box.grown(0.5 * distance));
   std::vector<std::vector<int>> neighbours(blocks.size());
   const auto is_absent = [&parts](int block) { return !parts.absent.empty() && parts.absent[at(block)]; };
   std::vector<std::array<int, 2>> near = meeting_boxes(boxes);
@@ -50,8 +49,8 @@ std::vector<PartitionBlock> blocks_to_share(const SimulationParts& parts, const 
     block.points.assign(block.neighbours.size(), points);
     if (!is_absent(k))
       block.weight = std::max(
-          1.0, weight_of_block(blocks[at(k)].freedom(), points * static_cast<int>(block.points.size())));
-    block.centroid = blocks[at(k)].basis().centroid();
+          1.0, weight_of_block(blocks[at(k)].freedom, points * static_cast<int>(block.points.size())));
+    block.centroid = blocks[at(k)].centroid;
   }
   return own;
 }
@@ -60,19 +59,13 @@ std::vector<PartitionBlock> blocks_to_share(const SimulationParts& parts, const 
 
 Simulation simulation_of(const RunRanks* shared, SimulationParts parts, const BlockLoader& load) {
   if (shared == nullptr || !shared->several())
-    return {std::move(parts.blocks), parts.motions, std::move(parts.law),
+    return {std::move(parts.models), parts.motions, std::move(parts.law),
             parts.settings,          parts.ties,    std::move(parts.absent)};
   const RunRanks& ranks = *shared;
   const auto count = static_cast<int>(parts.blocks.size());
   std::vector<int> owners = ranks.partition(ranks.ranks, blocks_to_share(parts, ranks.ranks), count);
-  // Blocks near at the start have been made; later ones are made again.
-  const auto made = std::make_shared<std::vector<BlockModel>>(std::move(parts.blocks));
-  const BlockLoader made_or_loaded = [made, load](int block) {
-    return made->empty() ? load(block) : (*made)[at(block)];
-  };
-  BlocksOfRank blocks = share_blocks(ranks.ranks, std::move(owners), made_or_loaded, parts.settings,
+  BlocksOfRank blocks = share_blocks(ranks.ranks, std::move(owners), load, parts.settings,
                                      std::move(parts.absent), ranks.solver, ranks.first(), parts.ties);
-  *made = {};
   blocks.shared->balance.partition = ranks.partition;
   return {std::move(blocks), parts.motions, std::move(parts.law), parts.settings, parts.ties};
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "apps/scene/build/block_summary.hpp"
 #include "solver/ranks/partition.hpp"
 #include "solver/run/simulation.hpp"
 
@@ -21,7 +22,8 @@ struct RunRanks {
 
 /// Arguments of a Simulation.
 struct SimulationParts {
-  std::vector<BlockModel> blocks;  ///< all
+  std::vector<BlockSummary> blocks;  ///< all
+  std::vector<BlockModel> models;    ///< all, of a rank alone; of several ranks none
   std::vector<InitialMotion> motions;
   Simulation::LawOfPair law;
   SimulationSettings settings;
@@ -30,9 +32,9 @@ struct SimulationParts {
   std::vector<std::vector<int>> bolted = {};  ///< blocks along each bolt, which better have one rank
 };
 
-/// A simulation, or the part of this rank in it. Models of blocks that are not near go then, but for those of the first
-/// rank, which writes results. Collective.
-/// @param ranks null, or only one: it is this one's alone. @param load makes the model of a block that comes near later
+/// A simulation, or the part of this rank in it. Collective.
+/// @param ranks null, or only one: it is this one's alone. @param load makes the models of blocks that this one of several
+/// ranks needs, now or later: own ones and those near them, on the first rank, which writes results, of all
 [[nodiscard]] Simulation simulation_of(const RunRanks* ranks, SimulationParts parts, const BlockLoader& load);
 
 }  // namespace ashlar

@@ -65,11 +65,12 @@ std::vector<KnownOverlap> check_overlaps(const ExpandedScene& whole,
 /// Expands a scene that was read: cuts, blocks by place, assignments by name. @param of_blocks faults of names of blocks
 /// @return empty after a fault that leaves nothing to check
 std::optional<ExpandedScene> expanded(Scene scene, Diagnostics& diagnostics, Diagnostics& of_blocks,
-                                      Preparation* preparation) {
+                                      Preparation* preparation, int ranks) {
   check_cuts(scene, diagnostics);
   if (!scene.cut.empty()) {
     // Names of pieces are known after the cuts, which need a valid scene.
-    if (!diagnostics.good() || !check_cost(scene, estimate_cost(scene), diagnostics)) return std::nullopt;
+    if (!diagnostics.good() || !check_cost(scene, estimate_cost(scene, nullptr, ranks), diagnostics))
+      return std::nullopt;
     cut_scene(scene, diagnostics, preparation);
     if (!diagnostics.good()) return std::nullopt;
   }
@@ -88,14 +89,14 @@ std::optional<ExpandedScene> expanded(Scene scene, Diagnostics& diagnostics, Dia
 
 /// Expands, checks and builds a scene that was read.
 std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Preparation* preparation,
-                                  LoadPurpose purpose) {
+                                  LoadPurpose purpose, int ranks) {
   const auto phase = [&](const char* words) {
     if (preparation != nullptr) preparation->phase(words);
   };
   // Faults of names of blocks.
   Diagnostics of_names;
   Diagnostics& of_blocks = purpose == LoadPurpose::blocks ? of_names : diagnostics;
-  std::optional<ExpandedScene> whole = expanded(std::move(scene), diagnostics, of_blocks, preparation);
+  std::optional<ExpandedScene> whole = expanded(std::move(scene), diagnostics, of_blocks, preparation, ranks);
   if (!whole) return std::nullopt;
   LoadedScene loaded{std::move(*whole), {}, {}, {}, {}, 0};
   if (!of_names.good()) loaded.scene.stage.clear();
@@ -103,7 +104,8 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
                  [&](const ExpandedScene& stage) { check_references(stage, diagnostics, of_blocks); });
   for (const Diagnostic& fault : of_names.sorted()) diagnostics.warning(fault.place, fault.message);
   // A scene that is too large is not built.
-  if (purpose == LoadPurpose::run && !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
+  if (purpose == LoadPurpose::run &&
+      !check_cost(loaded.scene, estimate_cost(loaded.scene, nullptr, ranks), diagnostics))
     return std::nullopt;
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
@@ -120,7 +122,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   if (!diagnostics.good()) return std::nullopt;
   warn_of_known_overlaps(loaded.scene, loaded.overlaps, diagnostics);
   phase("sizes of the scene");
-  loaded.cost = estimate_cost(loaded.scene, &solids);
+  loaded.cost = estimate_cost(loaded.scene, &solids, ranks);
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
   warn_of_keys_idle_in_all(loaded.scene, diagnostics);
   warn_of_boundaries(loaded.scene, diagnostics);
@@ -137,14 +139,15 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides, Diagnostics& diagnostics,
-                                      Preparation* preparation, LoadPurpose purpose) {
-  return loaded(read_scene(file, overrides, diagnostics), diagnostics, preparation, purpose);
+                                      Preparation* preparation, LoadPurpose purpose, int ranks) {
+  return loaded(read_scene(file, overrides, diagnostics), diagnostics, preparation, purpose, ranks);
 }
 
 std::optional<LoadedScene> load_scene_text(std::string_view text, const std::filesystem::path& file,
                                            const std::vector<std::string>& overrides,
-                                           Diagnostics& diagnostics, Preparation* preparation) {
-  return loaded(parse_scene(text, file, overrides, diagnostics), diagnostics, preparation, LoadPurpose::run);
+                                           Diagnostics& diagnostics, Preparation* preparation, int ranks) {
+  return loaded(parse_scene(text, file, overrides, diagnostics), diagnostics, preparation, LoadPurpose::run,
+                ranks);
 }
 
 LoadedScene stage_of(const LoadedScene& whole, std::size_t stage) {

@@ -22,7 +22,7 @@ struct LoadedScene {
   std::vector<Polyhedron> solids;  ///< one per scene.block, placed
   /// One per scene.block, before translation; equal ones are shared.
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
-  CostEstimate cost;                   ///< of all blocks of all stages
+  CostEstimate cost;                   ///< of all blocks of all stages, on each rank
   std::vector<KnownOverlap> overlaps;  ///< accepted by contact.allowed_overlap, by pair
   std::size_t stage = 0;               ///< of one stage: its index in scene.stage
 };
@@ -40,19 +40,19 @@ enum class LoadPurpose {
 /// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. For warnings see
 /// soft_blocks.hpp, idle_keys.hpp. Each stage of a scene is checked.
 /// @param overrides "key.path=value" each, as given to --set, applied in order.
-/// @param preparation receives the present phase, if not null.
+/// @param preparation receives the present phase, if not null. @param ranks that share a run of the scene
 /// @return empty if the scene has any error; all of them are then in diagnostics. Writes no file.
 [[nodiscard]] std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                                     const std::vector<std::string>& overrides,
                                                     Diagnostics& diagnostics,
                                                     Preparation* preparation = nullptr,
-                                                    LoadPurpose purpose = LoadPurpose::run);
+                                                    LoadPurpose purpose = LoadPurpose::run, int ranks = 1);
 
 /// The same from the text of a scene. @param file name for messages and folder of its paths
 [[nodiscard]] std::optional<LoadedScene> load_scene_text(std::string_view text,
                                                          const std::filesystem::path& file,
                                                          const std::vector<std::string>& overrides,
                                                          Diagnostics& diagnostics,
-                                                         Preparation* preparation = nullptr);
+                                                         Preparation* preparation = nullptr, int ranks = 1);
 
 }  // namespace ashlar

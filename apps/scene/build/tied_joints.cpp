@@ -31,7 +31,7 @@ void for_each_pair(const JointTable& table, std::size_t joint, Visit visit) {
 
 /// Pairs tied by a joint, sorted.
 std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, const JointTable& table,
-                                                            const std::vector<BlockModel>& blocks) {
+                                                            const std::vector<BlockSummary>& blocks) {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     if (!scene.joint[k].tied.value_or(false)) continue;
@@ -87,10 +87,11 @@ bool waits(const JointTable& table, std::size_t joint, const BlockSystem& system
 }  // namespace
 
 std::vector<TieRequest> ties_of(const Scene& scene, const JointTable& table,
-                                const std::vector<BlockModel>& blocks) {
+                                const std::vector<BlockSummary>& blocks) {
   std::vector<TieRequest> ties;
   for (const auto& [a, b] : tied_pairs(scene, table, blocks))
-    ties.push_back({static_cast<int>(a), static_cast<int>(b), automatic_tie_stiffness(blocks[a], blocks[b])});
+    ties.push_back({static_cast<int>(a), static_cast<int>(b),
+                    automatic_tie_stiffness(blocks[a].stiffness, blocks[b].stiffness)});
   return ties;
 }
 

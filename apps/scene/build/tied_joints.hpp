@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "apps/scene/build/block_summary.hpp"
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "apps/scene/model/scene.hpp"
@@ -12,7 +13,7 @@ namespace ashlar {
 
 /// Every pair of blocks whose joint is tied. @param blocks of the scene
 [[nodiscard]] std::vector<TieRequest> ties_of(const Scene& scene, const JointTable& table,
-                                              const std::vector<BlockModel>& blocks);
+                                              const std::vector<BlockSummary>& blocks);
 
 /// Reports a [[joint]] that ties nothing as an error at its key, and one undone by later ones as a warning. @param
 /// system with the ties. With several ranks collective: all report the same

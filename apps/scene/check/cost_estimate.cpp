@@ -24,6 +24,8 @@ constexpr double of_pair_and_unknown = 1e4;       ///< contact points, matrix an
 constexpr double matrices_of_kind = 4.0;          ///< of size 3p x 3p, for each kind of block
 constexpr double matrices_of_block = 2.0;         ///< additionally for each block
 constexpr double bytes_per_mesh_triangle = 20.0;  ///< of a file, the smallest of all formats
+constexpr double of_scene_block = 4e4;            ///< what a rank has of each block of the scene, for results too
+constexpr double part_of_rank = 1.25;  ///< largest part of a rank, relative to the mean, with ghosts
 
 double functions_of(int order) {
   return (order + 1.0) * (order + 2.0) * (order + 3.0) / 6.0;
@@ -102,6 +104,12 @@ NearPairs near_pairs(const std::vector<std::optional<Polyhedron>>& solids, const
   return pairs;
 }
 
+/// @param alone bytes, of a rank that has all blocks
+double memory_of_rank(double alone, double blocks, int ranks) {
+  const double part = part_of_rank * (alone - program) / ranks;
+  return std::min(alone, program + of_scene_block * blocks + part);
+}
+
 std::string in_words(double count, const char* noun) {
   return count < 1e7 ? fmt::format("{:.0f} {}{}", count, noun, count == 1.0 ? "" : "s")
                      : fmt::format("{:.2g} {}s", count, noun);
@@ -113,8 +121,10 @@ std::string bytes_in_words(double bytes) {
 
 }  // namespace
 
-CostEstimate estimate_cost(const Scene& scene, const std::vector<std::optional<Polyhedron>>* solids) {
+CostEstimate estimate_cost(const Scene& scene, const std::vector<std::optional<Polyhedron>>* solids,
+                           int ranks) {
   CostEstimate estimate;
+  estimate.ranks = ranks;
   estimate.memory = program;
   const std::filesystem::path folder = scene.file.parent_path();
   std::set<std::pair<std::size_t, int>> kinds;
@@ -139,14 +149,16 @@ CostEstimate estimate_cost(const Scene& scene, const std::vector<std::optional<P
     estimate.pairs = pairs.count;
     estimate.memory += pairs.memory;
   }
+  estimate.memory = memory_of_rank(estimate.memory, static_cast<double>(scene.block.size()), ranks);
   return estimate;
 }
 
 std::string to_string(const CostEstimate& estimate, std::size_t blocks) {
-  return fmt::format("estimate: {}, {}, {}, {} of near blocks, {}",
+  const std::string where = estimate.ranks > 1 ? fmt::format(" on each of {} ranks", estimate.ranks) : "";
+  return fmt::format("estimate: {}, {}, {}, {} of near blocks, {}{}",
                      in_words(static_cast<double>(blocks), "block"), in_words(estimate.sub_faces, "sub-face"),
                      in_words(estimate.unknowns, "unknown"), in_words(estimate.pairs, "pair"),
-                     bytes_in_words(estimate.memory));
+                     bytes_in_words(estimate.memory), where);
 }
 
 bool check_cost(const Scene& scene, const CostEstimate& estimate, Diagnostics& diagnostics) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "apps/scene/model/support_history.hpp"
 #include "mechanics/material/elasticity.hpp"
@@ -112,32 +113,29 @@ class SupportedFrame {
 
 }  // namespace
 
-void warn_of_turned_supports(const Scene& scene, const std::vector<BlockModel>& blocks,
-                             Diagnostics& diagnostics) {
+void warn_of_turned_support(const Scene& scene, std::size_t index, const BlockModel& block,
+                            Diagnostics& diagnostics) {
   if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) return;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    const BlockModel& block = blocks[k];
-    if (!block.driven() || block.space().can_turn() || block.material().elasticity != Elasticity::linear)
-      continue;
-    const SceneBlock& given = scene.block[k];
-    const SupportedFrame frame(supported_points(given, block.solid()));
-    double most = 0.0;
-    std::size_t widest = 0;
-    for (std::size_t n = 0; n < given.fix.size(); ++n) {
-      for (const SceneFix::Motion& row : given.fix[n].history) {
-        const double turn = frame.turn_at(std::clamp(row.time, 0.0, scene.analysis.end_time));
-        if (turn > most) widest = n;
-        most = std::max(most, turn);
-      }
+  if (!block.driven() || block.space().can_turn() || block.material().elasticity != Elasticity::linear)
+    return;
+  const SceneBlock& given = scene.block[index];
+  const SupportedFrame frame(supported_points(given, block.solid()));
+  double most = 0.0;
+  std::size_t widest = 0;
+  for (std::size_t n = 0; n < given.fix.size(); ++n) {
+    for (const SceneFix::Motion& row : given.fix[n].history) {
+      const double turn = frame.turn_at(std::clamp(row.time, 0.0, scene.analysis.end_time));
+      if (turn > most) widest = n;
+      most = std::max(most, turn);
     }
-    if (most <= largest_ordinary_turn) continue;
-    const char* key = history_key(given.fix[widest]);
-    diagnostics.warning(
-        scene.places.value(fmt::format("block.{}.fix.{}.{}", k, widest, key)),
-        fmt::format("{} turns block \"{}\" by {:.3g} rad, which strains it: elasticity "
-                    "\"linear\" does not turn with a block that is held, \"st-venant-kirchhoff\" does",
-                    key, block.name(), most));
   }
+  if (most <= largest_ordinary_turn) return;
+  const char* key = history_key(given.fix[widest]);
+  diagnostics.warning(
+      scene.places.value(fmt::format("block.{}.fix.{}.{}", index, widest, key)),
+      fmt::format("{} turns block \"{}\" by {:.3g} rad, which strains it: elasticity "
+                  "\"linear\" does not turn with a block that is held, \"st-venant-kirchhoff\" does",
+                  key, block.name(), most));
 }
 
 }  // namespace ashlar

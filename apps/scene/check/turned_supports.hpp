@@ -1,7 +1,7 @@
 // Supports that rotate a block beyond the validity of its elasticity.
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/scene.hpp"
@@ -12,11 +12,10 @@ namespace ashlar {
 /// rad: up to this angle linear elasticity in a fixed frame strains a block by at most angle^2/2 = 0.5 %.
 inline constexpr double largest_ordinary_turn = 0.1;
 
-/// Warns of each block with linear elasticity whose frame is fixed by supports (BlockModel::elastic) and whose
+/// Warns of a block with linear elasticity whose frame is fixed by supports (BlockModel::elastic) and whose
 /// histories rotate its supported points by more than that before end_time. Rotation of the rest of the block due to
-/// a translation of supports does not count.
-/// @param blocks one per scene.block
-void warn_of_turned_supports(const Scene& scene, const std::vector<BlockModel>& blocks,
-                             Diagnostics& diagnostics);
+/// a translation of supports does not count. @param index of the block in scene.block. @param block its model
+void warn_of_turned_support(const Scene& scene, std::size_t index, const BlockModel& block,
+                            Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -68,6 +68,34 @@ TEST(CostEstimate, NoMorePairsTakeMemoryThanFacesCanTouch) {
   EXPECT_NEAR(estimate.memory - estimate_cost(scene).memory, 81.0 * 24.0 * 1e4, 1.0);
 }
 
+// 27 cubes with 12 unknowns, of one kind: 12 triangles of 2 kB and two matrices of 12 x 12 numbers each, four matrices of
+// the kind, and 81 pairs with 24 unknowns of 10 kB; beside 20 MB of the program.
+TEST(CostEstimate, ARankHasAPartOfTheBlocksAndTheWholeScene) {
+  Diagnostics diagnostics;
+  const Scene scene = scene_of(filled_cube());
+  const std::vector<std::optional<Polyhedron>> solids = build_solids(scene, diagnostics);
+  const double blocks = 27.0 * 12.0 * 2000.0 + 81.0 * 24.0 * 1e4 + (27.0 * 2.0 + 4.0) * 8.0 * 144.0;
+  EXPECT_NEAR(estimate_cost(scene, &solids).memory, 2e7 + blocks, 1.0);
+  // A rank has a quarter more than its mean part, and 40 kB of each block.
+  const CostEstimate estimate = estimate_cost(scene, &solids, 4);
+  EXPECT_NEAR(estimate.memory, 2e7 + 27.0 * 4e4 + 1.25 * blocks / 4.0, 1.0);
+  EXPECT_EQ(estimate.unknowns, 27.0 * 12.0);
+  EXPECT_THAT(to_string(estimate, 27), HasSubstr(", 158 pairs of near blocks, 27 MB on each of 4 ranks"));
+  // Blocks that are cheaper than what all ranks have of them.
+  const Scene small = scene_of(sample());
+  EXPECT_EQ(estimate_cost(small, nullptr, 2).memory, estimate_cost(small).memory);
+}
+
+TEST(CostEstimate, TheLimitIsThatOfARank) {
+  Diagnostics diagnostics;
+  std::string text = filled_cube();
+  text.replace(text.find("1e-3 }"), 6, "1e-3, memory_limit = 3e7 }");
+  const Scene scene = scene_of(text);
+  const std::vector<std::optional<Polyhedron>> solids = build_solids(scene, diagnostics);
+  EXPECT_FALSE(check_cost(scene, estimate_cost(scene, &solids), diagnostics));
+  EXPECT_TRUE(check_cost(scene, estimate_cost(scene, &solids, 4), diagnostics));
+}
+
 TEST_F(RunCommand, AScene270BytesLongIsRefusedForItsSize) {
   write_text(scene_, head + sphere(2, 5));
   EXPECT_EQ(command({"check", scene_.string()}), 2);

@@ -1,0 +1,30 @@
+// What a run has to know of every block before ranks share them.
+#pragma once
+
+#include "geometry/boxes/box.hpp"
+#include "solver/state/automatic.hpp"
+
+namespace ashlar {
+
+/// Numbers of a block as placed.
+struct BlockSummary {
+  Box box;                             ///< of the solid, m
+  Vector3 centroid = Vector3::Zero();  ///< m
+  StiffnessSource stiffness;
+  int freedom = 0;  ///< BlockModel::freedom
+  int order = 1;    ///< BlockModel::order
+  bool incremental = false;
+
+  [[nodiscard]] bool fixed() const { return stiffness.fixed; }
+};
+
+[[nodiscard]] inline BlockSummary summary_of(const BlockModel& block) {
+  return {box_of(block.solid().mesh().points),
+          block.basis().centroid(),
+          stiffness_source(block),
+          block.freedom(),
+          block.order(),
+          block.incremental() != nullptr};
+}
+
+}  // namespace ashlar
