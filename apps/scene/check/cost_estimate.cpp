@@ -24,8 +24,8 @@ constexpr double of_pair_and_unknown = 1e4;       ///< contact points, matrix an
 constexpr double matrices_of_kind = 4.0;          ///< of size 3p x 3p, for each kind of block
 constexpr double matrices_of_block = 2.0;         ///< additionally for each block
 constexpr double bytes_per_mesh_triangle = 20.0;  ///< of a file, the smallest of all formats
-constexpr double of_scene_block = 4e4;            ///< what a rank has of each block of the scene, for results too
-constexpr double part_of_rank = 1.25;  ///< largest part of a rank, relative to the mean, with ghosts
+constexpr double of_scene_block = 4e4;  ///< what a rank has of each block of the scene, for results too
+constexpr double part_of_rank = 1.25;   ///< largest part of a rank, relative to the mean, with ghosts
 
 double functions_of(int order) {
   return (order + 1.0) * (order + 2.0) * (order + 3.0) / 6.0;

@@ -16,12 +16,12 @@ using test_support::block_of;
 using test_support::distance;
 using test_support::End;
 using test_support::fixed_box;
-using test_support::spring_joint;
 using test_support::owners_of;
 using test_support::run_alone;
 using test_support::run_shared;
 using test_support::run_static;
 using test_support::Scene;
+using test_support::spring_joint;
 using test_support::steps_to;
 using test_support::stored_snapshot;
 

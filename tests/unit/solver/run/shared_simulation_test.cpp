@@ -12,7 +12,6 @@ using test_support::block_of;
 using test_support::distance;
 using test_support::End;
 using test_support::fixed_box;
-using test_support::spring_joint;
 using test_support::owners_along;
 using test_support::owners_of;
 using test_support::pile;
@@ -20,6 +19,7 @@ using test_support::run_alone;
 using test_support::run_shared;
 using test_support::same_bits;
 using test_support::Scene;
+using test_support::spring_joint;
 using test_support::wall;
 
 TEST(SharedSimulation, OneRankHasTheBitsOfNone) {

@@ -12,13 +12,13 @@ using test_support::block_of;
 using test_support::distance;
 using test_support::End;
 using test_support::fixed_box;
-using test_support::spring_joint;
 using test_support::looking_each;
 using test_support::owners_of;
 using test_support::pile;
 using test_support::run_alone;
 using test_support::run_shared;
 using test_support::Scene;
+using test_support::spring_joint;
 using test_support::wall;
 
 /// All on the first rank.
