@@ -152,6 +152,28 @@ std::vector<PairBonds> bonds_of_run(const Simulation& simulation) {
   return all;
 }
 
+std::map<PairKey, std::vector<char>> points_without_strength_of_run(const Simulation& simulation) {
+  const BlockSystem& system = simulation.system();
+  std::map<PairKey, std::vector<char>> own;
+  for (const PairRecord& record : simulation.contacts()) {
+    if (!system.owns_pair(record.a, record.b)) continue;
+    std::vector<char> lost = simulation.points_without_strength(record);
+    if (std::find(lost.begin(), lost.end(), 1) != lost.end()) own[{record.a, record.b}] = std::move(lost);
+  }
+  if (system.share() == nullptr) return own;
+  Ranks& ranks = system.share()->ranks();
+  std::map<PairKey, std::vector<char>> all;
+  send_to_first(
+      ranks, [&](ByteWriter& writer) { writer(own); },
+      [&](ByteReader& reader, int) {
+        std::map<PairKey, std::vector<char>> others;
+        reader(others);
+        all.merge(others);
+      });
+  if (ranks.own() == 0) all.merge(own);
+  return all;
+}
+
 std::vector<RankWork> work_of_ranks(const Simulation& simulation, const ProcessUse& use) {
   const BlockSystem& system = simulation.system();
   RankWork work;

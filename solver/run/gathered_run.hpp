@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "solver/ranks/measured_solver.hpp"
@@ -32,6 +33,10 @@ struct PairBonds {
 };
 /// Of all pairs that have had any, on rank 0; on other ranks none.
 [[nodiscard]] std::vector<PairBonds> bonds_of_run(const Simulation& simulation);
+
+/// Points without strength of the pairs in contact that have any (lost_strength.hpp), on rank 0; on other ranks none.
+[[nodiscard]] std::map<PairKey, std::vector<char>> points_without_strength_of_run(
+    const Simulation& simulation);
 
 /// Resources that a process has used so far.
 struct ProcessUse {

@@ -1,6 +1,7 @@
 // Sums and extremes of a run that several ranks share, and results of other ranks that the first one needs.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "solver/state/run_state.hpp"
@@ -38,6 +39,8 @@ struct ToldResults {
   RunTotals totals;
   std::vector<PairRecord> contacts;  ///< by blocks
   std::vector<MovingBlock> moving;   ///< Simulation::moving_blocks(), by block
+  /// Simulation::points_without_strength() of pairs that have such points
+  std::map<PairKey, std::vector<char>> without_strength;
 };
 
 }  // namespace ashlar

@@ -8,6 +8,7 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
+#include "solver/contact/lost_strength.hpp"
 #include "solver/ranks/counted_traffic.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/contact_explanation.hpp"
@@ -74,7 +75,7 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
   told_.reset();
   if (shared_ == nullptr) return;
   const CountedTraffic traffic(system_.share()->ranks(), shared_->for_results);
-  ToldResults told{totals_of_run(*this, shown), {}, {}};
+  ToldResults told{totals_of_run(*this, shown), {}, {}, {}};
   const bool first = system_.share()->ranks().own() == 0;
   send_bolts_to_first(system_, state_);
   if (needs.all || !needs.pairs.empty()) told.contacts = contacts_of_run(*this, needs);
@@ -85,6 +86,7 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
   }
   if (needs.all) {
     told.moving = moving_of_run(system_, state_);
+    told.without_strength = points_without_strength_of_run(*this);
     const std::vector<PairBonds> bonds = bonds_of_run(*this);
     if (first && !shared_->keeps_models)
       throw std::logic_error("the first rank has no models of blocks elsewhere");
@@ -96,6 +98,15 @@ void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& s
     }
   }
   if (first) told_ = std::move(told);
+}
+
+std::vector<char> Simulation::points_without_strength(const PairRecord& record) const {
+  const PairKey blocks = {record.a, record.b};
+  if (!told_)
+    return ashlar::points_without_strength(system_.law(record.a, record.b), history_of(state_.pairs, blocks),
+                                           record);
+  const auto told = told_->without_strength.find(blocks);
+  return told != told_->without_strength.end() ? told->second : std::vector<char>(record.points.size(), 0);
 }
 
 void Simulation::refuse_ranks(const char* what) const {

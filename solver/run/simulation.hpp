@@ -190,6 +190,8 @@ class Simulation {
     return told_ ? told_->contacts : state_.records;
   }
   [[nodiscard]] const PairHistories& histories() const { return state_.pairs; }
+  /// By point of a record in contacts(): 1 if its joint has lost its strength (lost_strength.hpp).
+  [[nodiscard]] std::vector<char> points_without_strength(const PairRecord& record) const;
   /// By bolt of system().
   [[nodiscard]] const std::vector<BoltState>& bolts() const { return state_.bolts; }
   [[nodiscard]] const Ledger& ledger() const { return told_ ? told_->totals.ledger : state_.ledger.ledger(); }

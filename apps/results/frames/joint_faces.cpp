@@ -126,19 +126,6 @@ std::vector<JointFace> faces_between(const PlacedSurface& a, const std::vector<i
   return faces;
 }
 
-bool has_lost_strength(const JointLaw& law, const PairHistory& history, const ContactPoint& point) {
-  if (!point_law(law, point.area, true).weakens()) return false;
-  const ContactMemory::Entry* nearest = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const ContactMemory::Entry& entry : history.memory.entries()) {
-    const double distance = (entry.material_b - point.material_b).squaredNorm();
-    if (distance >= least) continue;
-    least = distance;
-    nearest = &entry;
-  }
-  return nearest != nullptr && !nearest->memory.intact;
-}
-
 void add(JointSums& sums, const ContactPoint& point, const PointResponse& response, ContactState state,
          double gap, const Vector3& slip, bool broken) {
   sums.area += point.area;
@@ -158,8 +145,7 @@ std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& 
   const PlacedSurface& b = surfaces.of(record.b);
   const std::map<int, std::vector<int>> cells_a = cells_of_faces(a), cells_b = cells_of_faces(b);
   std::map<std::array<int, 2>, std::vector<JointFace>> faces;
-  const JointLaw law = simulation.system().law(record.a, record.b);
-  const PairHistory& history = history_of(simulation.histories(), {record.a, record.b});
+  const std::vector<char> lost = simulation.points_without_strength(record);
   const std::vector<ContactState> states = shown_states(simulation, record);
   for (std::size_t k = 0; k < record.points.size(); ++k) {
     const ContactPoint& point = record.points[k];
@@ -178,7 +164,7 @@ std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& 
     }
     if (nearest == nullptr) continue;
     add(nearest->sums, point, record.responses[k], states[k], record.gaps[k], slip_of(simulation, record, k),
-        has_lost_strength(law, history, point));
+        lost[k] != 0);
   }
   std::vector<JointFace> result;
   for (auto& [key, list] : faces)

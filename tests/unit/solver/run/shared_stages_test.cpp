@@ -209,6 +209,36 @@ TEST(SharedStages, FailedJointsFarApartAreCounted) {
   }
 }
 
+/// Of three cubes on brittle joints the last one slides, which belongs to another rank than results.
+TEST(SharedStages, PointsThatHaveFailedOnAnyRankAreTold) {
+  Scene scene;
+  scene.law = test_support::spring_joint(0.5);
+  scene.law.cohesion = 1e4;
+  scene.settings.time_step = 1e-3;
+  scene.settings.contact_distance = 2e-3;
+  scene.blocks.push_back(fixed_box({-1, -1, -1}, {9, 2, 0}));
+  for (const double x : {0.0, 2.0, 4.0})
+    scene.blocks.push_back(
+        block_of("cube", Polyhedron(make_box({x, 0, 0}, {x + 1, 1, 1})), {2000, 1e9, 0.2}, 1));
+  scene.motions.resize(scene.blocks.size());
+  scene.motions[3].velocity.x() = 1.0;
+  for (const int ranks : {1, 2, 3}) {
+    const auto failed = test_support::run_shared(
+        scene, owners_along(0, scene.blocks, ranks), ranks, [](Simulation& simulation) {
+          EXPECT_TRUE(advance(simulation, 40));
+          simulation.gather_results();
+          std::vector<double> share;  // of the points of each pair
+          for (const PairRecord& record : simulation.contacts()) {
+            const std::vector<char> lost = simulation.points_without_strength(record);
+            share.push_back(static_cast<double>(std::count(lost.begin(), lost.end(), 1)) /
+                            static_cast<double>(record.points.size()));
+          }
+          return share;
+        });
+    EXPECT_EQ(failed, (std::vector<double>{0.0, 0.0, 1.0})) << ranks;
+  }
+}
+
 TEST(SharedStages, AStageGoesOnFromItsCheckpointOnOtherRanks) {
   const Scene scene = test_support::wall(5, 5);
   const End expected = stages_alone(scene, undermining);
