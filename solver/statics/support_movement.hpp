@@ -99,6 +99,13 @@ struct SupportMovement {
   bool left_out_strength = false;    ///< true: joints have cohesion or tensile strength, which are ignored
 };
 
+/// Lists all members, for messages: the compiler cannot count those beside an optional vector (struct_members.hpp).
+template <class Archive>
+void visit_members(Archive& archive, SupportMovement& movement) {
+  auto& [support, direction, out, in, away, left_out_strength] = movement;
+  archive(support, direction, out, in, away, left_out_strength);
+}
+
 /// Size of the structure that may move, m: diagonal of the box around its contacts. 0: no contacts
 [[nodiscard]] double extent_of(const RigidModel& model);
 

@@ -35,7 +35,7 @@ class WriterOfRun {
   void write(const RunCheckpoint& checkpoint) {
     with_members(checkpoint, [this](const SimulationSnapshot& simulation, const auto&... of_run) {
       with_members(simulation, [this](const RunState& state, const auto&... of_simulation) {
-        with_members(state, [this](const auto&... members) { (write_member(members), ...); });
+        with_members(state, [this](const auto&... members) { (this->write_member(members), ...); });
         writer_(of_simulation...);
       });
       writer_(of_run...);
@@ -68,7 +68,7 @@ class ReaderOfPairs {
   void read(RunCheckpoint& checkpoint) {
     with_members(checkpoint, [this](SimulationSnapshot& simulation, auto&... of_run) {
       with_members(simulation, [this](RunState& state, auto&... of_simulation) {
-        with_members(state, [this](auto&... members) { (read_member(members), ...); });
+        with_members(state, [this](auto&... members) { (this->read_member(members), ...); });
         reader_(of_simulation...);
       });
       reader_(of_run...);
