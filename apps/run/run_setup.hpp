@@ -14,7 +14,7 @@ namespace ashlar {
                                                              std::size_t stage);
 
 /// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, searches
-/// with nothing to find, and cracks without joints. On several ranks the first one reports all of these.
+/// with nothing to find, and cracks without joints. On several ranks the first one alone reports the last two.
 /// @param first of stage_scene(), kept with the result. @param threads >= 1. @param ranks see build_simulation
 /// @return empty if a block cannot be built
 [[nodiscard]] std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedScene> first,

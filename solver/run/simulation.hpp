@@ -173,7 +173,7 @@ class Simulation {
   [[nodiscard]] SimulationSnapshot snapshot() const;
   /// The same without pairs and records. Collective
   [[nodiscard]] SimulationSnapshot snapshot_without_pairs() const;
-  /// Those, to be written as they come from other ranks. They are those of the present state while it does not change
+  /// Pairs and records of the present state, to be written as they come from other ranks. The state must not change before.
   [[nodiscard]] PairsOfRun pairs_of_run(PairVisitors visitors = PairVisitors::first) const;
   /// @throws std::invalid_argument if the snapshot was taken of other blocks.
   void restore(const SimulationSnapshot& snapshot);

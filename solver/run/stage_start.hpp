@@ -19,7 +19,8 @@ namespace ashlar {
 
 /// Starts a run whose contacts have not been detected yet. Blocks that were absent start where it has placed them. With
 /// several ranks collective.
-/// @param end of the stage before; of the whole run, with the pairs that this rank may need (add_pairs_of_rank) or all. @param was_absent in it, by block
+/// @param end of the stage before; of the whole run, with the pairs that this rank may need (add_pairs_of_rank) or all
+/// @param was_absent in it, by block
 /// @throws std::invalid_argument if it has other blocks or other orders, or if a block that was absent is tied to one that
 /// has moved; on all ranks the same
 void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent);

@@ -1,4 +1,4 @@
-// What a run has to know of every block before ranks share them.
+// Numbers of every block that a run needs before ranks share the blocks.
 #pragma once
 
 #include "geometry/boxes/box.hpp"

@@ -1,6 +1,7 @@
 // Searches for a factor and thrust that several ranks share, as threads: the answer of one rank.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -102,6 +103,19 @@ nlohmann::json trials(const nlohmann::json& found) {
   return result;
 }
 
+/// Axial forces of the bolts when a step has been drawn, N.
+class BoltRecord final : public RunObserver {
+ public:
+  explicit BoltRecord(std::vector<std::vector<double>>& axial) : axial_(axial) {}
+  void step_taken(const ashlar::Run& run) override {
+    axial_.clear();
+    for (const BoltState& bolt : run.simulation().bolts()) axial_.push_back(bolt.axial);
+  }
+
+ private:
+  std::vector<std::vector<double>>& axial_;
+};
+
 TEST(SharedSearch, LimitAnalysisIsThatOfTheFirstRank) {
   const auto scene = scene_of(courses("type = \"factor-of-safety\"", "friction_angle = 30"));
   std::vector<Eigen::MatrixX3d> drawn, positions;
@@ -189,6 +203,37 @@ TEST(SharedSearch, ThrustIsThatOfTheFirstRank) {
   EXPECT_EQ(shared.at("message"), alone.at("message"));
 }
 
+TEST(SharedSearch, BoltsHaveTheForcesOfTheLimitState) {
+  // The lowest brick has no bolt and slides alone, at the factor of all without one.
+  const auto scene =
+      scene_of(courses("type = \"factor-of-safety\"\nmethod = \"limit\"", "friction_angle = 30", R"(
+[[bolt]]
+name = "bolt"
+from = [3, 0.5, 0.8]
+to = [2.2, 0.5, -0.8]
+area = 5e-4
+young_modulus = 2e11
+yield_force = 2e4
+bond_stiffness = 1e9
+bond_strength = 2e5
+)"));
+  const auto forces = [&scene](int ranks) {
+    std::vector<std::vector<double>> axial;
+    const nlohmann::json summary = answer(scene, ranks, [&](ashlar::Run& run, bool first) {
+      if (first) run.observe(std::make_shared<BoltRecord>(axial));
+    });
+    EXPECT_LT(summary.at("factor_of_safety").at("lower").get<double>(), 1.001 * sliding);
+    EXPECT_GT(summary.at("factor_of_safety").at("upper").get<double>(), 0.999 * sliding);
+    return std::pair(axial, summary.at("factor_of_safety"));
+  };
+  const auto [axial, found] = forces(1);
+  ASSERT_FALSE(axial.empty());
+  const double most = *std::max_element(axial.front().begin(), axial.front().end());
+  EXPECT_GT(most, 0.0);
+  EXPECT_LT(most, 1.001 * 2e4) << "it does not exceed yield_force";
+  EXPECT_EQ(forces(2), std::pair(axial, found));
+}
+
 /// Ends a run when it is asked for the n-th time.
 class EndsAt final : public RunObserver {
  public:
@@ -219,6 +264,38 @@ TEST(SharedSearch, OneThatWasInterruptedGoesOnOnOtherRanks) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out" / trial_state_name));
   EXPECT_EQ(trials(resumed.at("factor_of_safety")), trials(whole.at("factor_of_safety")));
   EXPECT_EQ(message(resumed), message(whole));
+}
+
+/// Notes before each iteration of a trial but the first one whether the state of the last is stored.
+class StoredStates final : public RunObserver {
+ public:
+  StoredStates(std::filesystem::path file, std::vector<bool>& stored)
+      : file_(std::move(file)), stored_(stored) {}
+  void trial_continues(double /*factor*/, int iterations) override {
+    if (iterations > 1) stored_.push_back(std::filesystem::exists(file_));
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::vector<bool>& stored_;
+};
+
+TEST(SharedSearch, StatesOfATrialAreStoredOnTheWay) {
+  const auto scene =
+      scene_of(courses("type = \"factor-of-safety\"\nmethod = \"elastic\"\nsafety = { tolerance = 0.5 }",
+                       "friction_angle = 30\nfriction_angle_residual = 29"));
+  for (const int ranks : {1, 2}) {
+    const TemporaryFolder folder;
+    std::vector<bool> stored;
+    (void)answer(scene, ranks, [&](ashlar::Run& run, bool first) {
+      auto claim =
+          first ? std::make_shared<const FolderClaim>(folder / "out", ClaimPurpose::new_run) : nullptr;
+      run.record(std::move(claim), 0.0, false);
+      if (first) run.observe(std::make_shared<StoredStates>(folder / "out" / trial_state_name, stored));
+    });
+    EXPECT_GT(stored.size(), 10U);
+    EXPECT_EQ(std::count(stored.begin(), stored.end(), false), 0) << ranks;
+  }
 }
 
 TEST(SharedSearch, SearchesWithNothingToFindAreRefused) {

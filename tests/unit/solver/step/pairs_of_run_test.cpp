@@ -25,24 +25,18 @@ Scene tall_wall() {
 /// Calls use(simulation, rank) on each of some ranks, after a step; with 0 once, without ranks.
 void step_on(int count, const Scene& scene, const std::function<void(Simulation&, int)>& use) {
   if (count == 0) {
-    std::vector<BlockModel> blocks;
-    for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-    Simulation simulation(std::move(blocks), scene.motions, test_support::same_law(scene.law),
-                          scene.settings);
+    Simulation simulation = test_support::simulation_alone(scene);
     ASSERT_TRUE(advance(simulation, 1));
     return use(simulation, 0);
   }
   run_on_threads(count, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    Simulation simulation(
-        share_blocks(own, owners_of(scene, count), load, scene.settings, {}, nullptr, own.own() == 0),
-        scene.motions, test_support::same_law(scene.law), scene.settings);
+    Simulation simulation = test_support::simulation_on(own, scene, owners_of(scene, count));
     ASSERT_TRUE(advance(simulation, 1));
     use(simulation, own.own());
   });
 }
 
-/// What a rank visits.
+/// Pairs as a rank visits them.
 struct Visited {
   std::size_t histories = 0, records = 0;  ///< as announced
   std::vector<PairKey> pairs, recorded;

@@ -13,6 +13,8 @@ namespace {
 using test_support::advance;
 using test_support::owners_of;
 using test_support::Scene;
+using test_support::simulation_alone;
+using test_support::simulation_on;
 using test_support::wall;
 
 constexpr std::uint64_t scene_hash = 7;
@@ -25,9 +27,7 @@ RunCheckpoint values_of(const Simulation& simulation) {
 TEST(RunCheckpoint, PairsThatAreVisitedAreWrittenAsThoseOfASnapshot) {
   const TemporaryFolder folder;
   const Scene scene = wall(5, 6);
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation simulation(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
+  Simulation simulation = simulation_alone(scene);
   ASSERT_TRUE(advance(simulation, 5));
   const std::uintmax_t size =
       write_checkpoint(folder / "whole", scene_hash, {simulation.snapshot(), {}, {}, {}, {}, {}});
@@ -39,9 +39,7 @@ TEST(RunCheckpoint, PairsThatAreVisitedAreWrittenAsThoseOfASnapshot) {
 TEST(RunCheckpoint, PairsThatAreNotNeededAreReadWithTheirOverlapAlone) {
   const TemporaryFolder folder;
   const Scene scene = wall(2, 3);
-  std::vector<BlockModel> blocks;
-  for (const BlockDefinition& block : scene.blocks) blocks.emplace_back(block);
-  Simulation simulation(std::move(blocks), scene.motions, test_support::same_law(scene.law), scene.settings);
+  Simulation simulation = simulation_alone(scene);
   ASSERT_TRUE(advance(simulation, 2));
   RunCheckpoint written{simulation.snapshot(), {}, {}, {}, {}, {}};
   // Ground 0, course of 1, 2 and 3, on which 4 and 5 are: three pairs with the ground, seven of bricks.
@@ -78,10 +76,7 @@ TEST(RunCheckpoint, TheFirstOfSeveralRanksWritesThePairsOfAll) {
   const TemporaryFolder folder;
   const Scene scene = wall(5, 6);
   run_on_threads(3, [&](Ranks& own) {
-    const auto load = [&](int block) { return BlockModel(scene.blocks[at(block)]); };
-    Simulation simulation(
-        share_blocks(own, owners_of(scene, 3), load, scene.settings, {}, nullptr, own.own() == 0),
-        scene.motions, test_support::same_law(scene.law), scene.settings);
+    Simulation simulation = simulation_on(own, scene, owners_of(scene, 3));
     ASSERT_TRUE(advance(simulation, 5));
     simulation.gather_results({});
     SimulationSnapshot whole = simulation.snapshot();
