@@ -105,6 +105,7 @@ class ConeProgram {
   [[nodiscard]] const std::vector<ConePoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<ConePair>& pairs() const { return pairs_; }
   [[nodiscard]] std::size_t bodies() const { return freedom_.size(); }
+  [[nodiscard]] int freedom(std::size_t body) const { return freedom_[body]; }
   /// The first bodies, whose motion is compared with their loads. The others are bars (rigid_bolts.hpp), which have no
   /// loads and move with the first ones.
   [[nodiscard]] std::size_t loaded_bodies() const { return loaded_; }

@@ -20,13 +20,6 @@ double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocit
   return sum;
 }
 
-std::vector<bool> reduced_points(const RigidModel& model, const LimitAnalysis::Chosen& reduced) {
-  std::vector<bool> points;
-  for (const RigidPoint& point : model.points)
-    points.push_back(!point.bar && reduced(point.blocks[0], point.blocks[1]));
-  return points;
-}
-
 }  // namespace
 
 LimitAnalysis::LimitAnalysis(RigidModel model, std::vector<bool> reduced, int threads)

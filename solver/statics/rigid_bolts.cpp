@@ -51,6 +51,7 @@ class Bars {
 
  private:
   [[nodiscard]] const BoltShape& shape() const { return bolt_.chain.shape(); }
+  [[nodiscard]] const BoltLaw& law() const { return bolt_.chain.law(); }
   [[nodiscard]] bool grouted() const { return !shape().stations().empty(); }
   [[nodiscard]] int block(int piece) const { return shape().pieces()[at(piece)].block; }
   [[nodiscard]] Vector3 first_point(int piece) const { return points_.col(shape().first_point(at(piece))); }
@@ -63,6 +64,26 @@ class Bars {
     double before = 0.0, after = 0.0;
     for (std::size_t g = 0; g < groups_.size(); ++g) (g <= group ? before : after) += groups_[g].bond;
     return std::min({strength_.tension, before, after});
+  }
+
+  /// m, in the body of a group.
+  [[nodiscard]] double grout_length(std::size_t group) const {
+    double length = 0.0;
+    for (int k = groups_[group].first; k <= groups_[group].last; ++k)
+      if (bolt_.chain.present(at(k))) length += shape().pieces()[at(k)].end - shape().pieces()[at(k)].start;
+    return length;
+  }
+
+  /// N/m, of the bar where it crosses from a group to the next one. In grout of the stiffness b per length the tension of
+  /// a bar of E A decays over sqrt(E A / b), so that its pulled end yields by N / (sqrt(E A b) tanh(L sqrt(b / E A))).
+  [[nodiscard]] double axial_stiffness(std::size_t group) const {
+    if (!grouted()) return law().axial_stiffness / shape().length();
+    double compliance = 0.0;
+    for (const std::size_t g : {group, group + 1}) {
+      const double root = std::sqrt(law().axial_stiffness * law().bond_stiffness);
+      compliance += 1.0 / (root * std::tanh(grout_length(g) * root / law().axial_stiffness));
+    }
+    return 1.0 / compliance;
   }
 
   /// True if the difference of the tensions on both sides of a body may exceed the strength of its grout.
@@ -104,6 +125,7 @@ class Bars {
     point.frame.row(0) = direction(group).transpose();
     point.bar->tension = tension(group);
     point.bar->compression = strength_.compression;
+    point.spring = {axial_stiffness(group), 0.0, -law().pretension};
     points.push_back(std::move(point));
   }
 
@@ -113,6 +135,7 @@ class Bars {
     RigidPoint point = crossing(group, {groups_[group + 1].body, groups_[group].body}, BarPart::dowel);
     const Vector3 along = direction(group), across = along.unitOrthogonal();
     const std::array<Vector3, 2> ways = {across, along.cross(across)};
+    point.spring = {law().shear_stiffness, law().shear_stiffness, 0.0};
     if (std::isinf(strength_.shear)) {
       for (const Vector3& way : ways) {
         point.frame.row(0) = way.transpose();
@@ -144,6 +167,7 @@ class Bars {
     model.bodies.push_back(std::move(bar));
     point.frame.row(0) = along.transpose();
     point.bar->tension = point.bar->compression = own.bond;
+    point.spring.normal = law().bond_stiffness * grout_length(group);
     points.push_back(std::move(point));
     return number;
   }

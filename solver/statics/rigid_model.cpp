@@ -153,14 +153,14 @@ ConeRows rows_of(const RigidBody& body, const RigidPoint& point, FrictionAt fric
 }  // namespace
 
 RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
-                       const std::vector<bool>& multiplied) {
+                       const std::vector<bool>& multiplied, RigidPointKind kind) {
   RigidModel model;
   model.body_of.assign(at(system.count()), -1);
   model.bodies = bodies_of(system, state, model.body_of);
   double mass = 0.0;
   for (const RigidBody& body : model.bodies) mass += body.mass;
   if (!model.bodies.empty()) model.units.mass = mass / static_cast<double>(model.bodies.size());
-  std::vector<RigidPoint> points = rigid_points(system, state, model.body_of);
+  std::vector<RigidPoint> points = rigid_points(system, state, model.body_of, kind);
   for (RigidPoint& point : points)
     point.bodies = {model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
   add_bars(system, state, model, points);
@@ -213,6 +213,14 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
   for (auto* loads : {&model.steady, &model.multiplied})
     for (BodyVelocity& load : *loads) load /= model.units.force();
   return model;
+}
+
+std::vector<bool> reduced_points(const RigidModel& model, const std::function<bool(int, int)>& reduced) {
+  std::vector<bool> points;
+  points.reserve(model.points.size());
+  for (const RigidPoint& point : model.points)
+    points.push_back(!point.bar && reduced(point.blocks[0], point.blocks[1]));
+  return points;
 }
 
 ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor) {

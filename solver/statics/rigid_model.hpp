@@ -12,6 +12,7 @@
 // Bolts, cables and props that are installed add points, and bars with slipping grout bodies (rigid_bolts.hpp).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,13 @@ struct BarPoint {
   double shear;        ///< N, >= 0, along rows 1 and 2
 };
 
+/// Elastic stiffness of a point, of models with springs.
+struct PointSpring {
+  double normal = 0.0;   ///< N/m, along row 0 of the frame
+  double shear = 0.0;    ///< N/m, along rows 1 and 2
+  double initial = 0.0;  ///< N, along row 0: pretension of a bar, negative
+};
+
 /// A place of contact between two bodies, or of a force of a bar.
 struct RigidPoint {
   BlockPair blocks;  ///< the first one's force is that of its ConePoint
@@ -42,7 +50,8 @@ struct RigidPoint {
       -1, -1};            ///< of both; -1: fixed. Bars: of the bar instead of its block, where it slips
   Vector3 place;          ///< m
   Eigen::Matrix3d frame;  ///< rows: normal out of the second block, two tangents
-  double area = 0.0;      ///< m^2, of a part of an overlap; 0: a corner, or a single place
+  double area = 0.0;      ///< m^2, of a part of an overlap, or tributary area of a spring; 0: a corner, or a
+                          ///< single place
   JointLaw law;
   /// m, for FrictionAt::uniform_pressure: moved in the face towards the centroid of the overlap, so that corner
   /// forces resist twisting as uniform pressure does (face_friction.hpp). Equal to `place` except for corners of
@@ -53,6 +62,7 @@ struct RigidPoint {
                 ///< block
   std::optional<BarPoint> bar =
       std::nullopt;  ///< of a bar: rows of the frame without a force are zero. Empty: a contact
+  PointSpring spring = {};
 };
 
 /// Blocks that move as one. The velocity of a material point at x is  t + w x (x - middle)  with  (t, w) = motion y.
@@ -82,10 +92,17 @@ struct RigidModel {
   std::vector<BodyVelocity> multiplied;  ///< loads with factor, in units
 };
 
+/// Points of a model.
+enum class RigidPointKind {
+  limit,   ///< corners of overlaps, and their parts where they have cohesion or tensile strength: for programmes
+  springs  ///< quadrature of area springs with the corners included (affine_rule()): for load_path.hpp
+};
+
 /// @param end_time of the loads, s. @param multiplied by block: true if its loads get a factor; empty: none
 /// @throws std::invalid_argument if a block is incremental
 [[nodiscard]] RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
-                                     const std::vector<bool>& multiplied);
+                                     const std::vector<bool>& multiplied,
+                                     RigidPointKind kind = RigidPointKind::limit);
 
 /// Place of friction for corners of faces: that of their pressure, or one that resists twisting as uniform pressure
 /// does.
@@ -100,6 +117,10 @@ enum class FrictionAt { corners, uniform_pressure };
 
 /// Number of bodies that are blocks, the first ones.
 [[nodiscard]] std::size_t loaded_bodies(const RigidModel& model);
+
+/// By point: true if it is no bar, and of a joint of two blocks that is chosen.
+[[nodiscard]] std::vector<bool> reduced_points(const RigidModel& model,
+                                               const std::function<bool(int, int)>& reduced);
 
 /// Strength of a point, with friction, cohesion and tensile strength of a joint divided by a factor, but not the
 /// strength of a bar. @param factor > 0

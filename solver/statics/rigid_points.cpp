@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/index.hpp"
+#include "mechanics/basis/quadrature.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/face_friction.hpp"
 #include "solver/step/step_contacts.hpp"
@@ -29,6 +30,11 @@ BlockSystem with_corners(const BlockSystem& system) {
       settings, {}, system.absent());
 }
 
+PointSpring spring_of(const JointLaw& law, double area) {
+  const double scale = law.area_springs ? area : 1.0;
+  return {law.normal_stiffness * scale, law.shear_stiffness * scale, 0.0};
+}
+
 /// Divides the overlaps of two blocks into parts.
 class OverlapParts {
  public:
@@ -41,20 +47,38 @@ class OverlapParts {
 
   /// @param law of the two blocks
   void add(const JointLaw& law, std::vector<RigidPoint>& points) const {
+    each_closed([&](const CellOverlap& overlap, const ContactPoint& corner) {
+      for (std::size_t k = 2; k < overlap.corners.size(); ++k)
+        add_triangle({overlap.corners[0].place, overlap.corners[k - 1].place, overlap.corners[k].place},
+                     overlap, corner, law, points);
+    });
+  }
+
+  void add_springs(const JointLaw& law, std::vector<RigidPoint>& points) const {
+    each_closed([&](const CellOverlap& overlap, const ContactPoint& corner) {
+      std::vector<Eigen::Vector2d> outline;
+      for (const OverlapCorner& one : overlap.corners) outline.push_back(one.place);
+      const PolygonRule rule = affine_rule(outline);
+      for (std::size_t k = 0; k < rule.points.size(); ++k) {
+        add_point(rule.points[k], rule.weights[k], overlap, corner, law, points);
+        points.back().spring = spring_of(law, rule.weights[k]);
+      }
+    });
+  }
+
+ private:
+  using Triangle = std::array<Eigen::Vector2d, 3>;
+
+  template <class Action>
+  void each_closed(Action action) const {
     for (const CellOverlap& overlap : found_.contacts.overlaps) {
       const ContactPoint* corner = corner_of(overlap);
       if (corner == nullptr) continue;
       double gap = 0.0;
       for (const double g : overlap.gaps) gap += g / static_cast<double>(overlap.gaps.size());
-      if (gap > reach_) continue;
-      for (std::size_t k = 2; k < overlap.corners.size(); ++k)
-        add_triangle({overlap.corners[0].place, overlap.corners[k - 1].place, overlap.corners[k].place},
-                     overlap, *corner, law, points);
+      if (gap <= reach_) action(overlap, *corner);
     }
   }
-
- private:
-  using Triangle = std::array<Eigen::Vector2d, 3>;
 
   [[nodiscard]] const ContactPoint* corner_of(const CellOverlap& overlap) const {
     const int face_a = a_.surface().cells[at(overlap.cell_a)].face;
@@ -81,19 +105,23 @@ class OverlapParts {
       const Eigen::Vector2d u = part[1] - part[0], v = part[2] - part[0];
       const double area = 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
       if (!(area > 0.0)) continue;
-      const Eigen::Vector2d middle = (part[0] + part[1] + part[2]) / 3.0;
-      const ViewFrame& frame = overlap.frame;
-      Eigen::Matrix3d axes;
-      axes << corner.normal.transpose(), corner.tangent_1.transpose(), corner.tangent_2.transpose();
-      const Vector3 place = frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2;
-      points.push_back({.blocks = {pair_.a(), pair_.b()},
-                        .place = place,
-                        .frame = axes,
-                        .area = area,
-                        .law = law,
-                        .friction_place = place,
-                        .contact = part_of(corner, place, area)});
+      add_point((part[0] + part[1] + part[2]) / 3.0, area, overlap, corner, law, points);
     }
+  }
+
+  void add_point(const Eigen::Vector2d& at, double area, const CellOverlap& overlap,
+                 const ContactPoint& corner, const JointLaw& law, std::vector<RigidPoint>& points) const {
+    const ViewFrame& frame = overlap.frame;
+    Eigen::Matrix3d axes;
+    axes << corner.normal.transpose(), corner.tangent_1.transpose(), corner.tangent_2.transpose();
+    const Vector3 place = frame.origin + at.x() * frame.e1 + at.y() * frame.e2;
+    points.push_back({.blocks = {pair_.a(), pair_.b()},
+                      .place = place,
+                      .frame = axes,
+                      .area = area,
+                      .law = law,
+                      .friction_place = place,
+                      .contact = part_of(corner, place, area)});
   }
 
   const PlacedSurface& a_;
@@ -106,7 +134,8 @@ class OverlapParts {
 }  // namespace
 
 std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& state,
-                                     const std::vector<int>& body_of) {
+                                     const std::vector<int>& body_of, RigidPointKind kind) {
+  const bool springs = kind == RigidPointKind::springs;
   BlockSystem view = with_corners(system);
   RunState copy;
   copy.states = state.states;
@@ -130,19 +159,23 @@ std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& 
                            next->contacts.overlaps, pair.points());
     for (std::size_t k = 0; k < pair.points().size(); ++k) {
       const ContactPoint& point = pair.points()[k];
-      if (point.gap > reach) continue;
+      if (point.gap > reach || (springs && point.type == ContactPointType::face_face)) continue;
       Eigen::Matrix3d frame;
       frame << point.normal.transpose(), point.tangent_1.transpose(), point.tangent_2.transpose();
       points.push_back({.blocks = {pair.a(), pair.b()},
                         .place = middle_of_point(point),
                         .frame = frame,
-                        .area = 0.0,
+                        .area = springs ? point.area : 0.0,
                         .law = law,
                         .friction_place = friction_places[k],
                         .contact = point});
+      if (springs) points.back().spring = spring_of(law, point.area);
     }
-    if (law.cohesion > 0.0 || law.tensile_strength > 0.0)
-      OverlapParts(contacts.finder(), *next, pair, reach).add(law, points);
+    const OverlapParts parts(contacts.finder(), *next, pair, reach);
+    if (springs)
+      parts.add_springs(law, points);
+    else if (law.cohesion > 0.0 || law.tensile_strength > 0.0)
+      parts.add(law, points);
   }
   return points;
 }

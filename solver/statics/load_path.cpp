@@ -1,0 +1,162 @@
+#include "solver/statics/load_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Inertia of steps over the stiffness of joints: at first, least and most. A step longer by `longer` follows one that
+/// converged, one shorter by `shorter` one that did not.
+constexpr double first_inertia = 1e-7, least_inertia = 1e-14, most_inertia = 1e3;
+constexpr double longer = 0.1, shorter = 10.0;
+/// Relative to the largest load: unbalanced force at rest.
+constexpr double at_rest = 1e-6;
+constexpr int most_path_steps = 300, most_newton_steps = 3000;
+/// Relative to the largest load: the inertia of motion that has no acceleration.
+constexpr double slow_motion = 1e-4;
+/// Relative to the largest force of a joint: it transmits force.
+constexpr double transmits = 1e-6;
+
+std::vector<JointSpring> springs_of(const RigidModel& model) {
+  std::vector<JointSpring> points;
+  points.reserve(model.points.size());
+  for (const RigidPoint& point : model.points)
+    points.push_back({point.spring.normal / model.units.force(), point.spring.shear / model.units.force(),
+                      point.bar ? 0.0 : point.law.dilation});
+  return points;
+}
+
+}  // namespace
+
+LoadPath::LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced, double allowed)
+    : model_(std::move(model)),
+      reduced_(reduced_points(model_, reduced)),
+      allowed_(allowed),
+      program_(program_of(model_, 1)),
+      step_(program_, springs_of(model_)) {}
+
+PathState LoadPath::unloaded() const {
+  PathState state;
+  for (const RigidPoint& point : model_.points)
+    state.force.emplace_back(point.spring.initial / model_.units.force(), 0.0, 0.0);
+  state.moved.assign(model_.bodies.size(), BodyVelocity::Zero());
+  return state;
+}
+
+void LoadPath::set_strengths(double factor) {
+  for (std::size_t k = 0; k < model_.points.size(); ++k)
+    program_.set_strength(k, strength_of(model_, model_.points[k], reduced_[k] ? factor : 1.0));
+}
+
+std::vector<BodyVelocity> LoadPath::load(double factor) const {
+  std::vector<BodyVelocity> load = model_.steady;
+  for (std::size_t b = 0; b < load.size(); ++b) load[b] += factor * model_.multiplied[b];
+  return load;
+}
+
+double LoadPath::farthest(const std::vector<BodyVelocity>& moved) const {
+  double squared = 0.0;
+  for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
+    const auto [a, b] = model_.pairs[n].bodies;
+    for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
+      const ConePoint& point = program_.points()[k];
+      if (a >= 0) squared = std::max(squared, (point.first * moved[at(a)]).squaredNorm());
+      if (b >= 0) squared = std::max(squared, (point.second * moved[at(b)]).squaredNorm());
+    }
+  }
+  // Bodies without any joint.
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b)
+    if (!model_.bodies[b].blocks.empty())
+      squared = std::max(squared, ashlar::motion_of(model_.bodies[b], moved[b]).translation.squaredNorm());
+  return std::sqrt(squared);
+}
+
+PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
+  set_strengths(factors.strength);
+  const std::vector<BodyVelocity> loads = load(factors.load);
+  double largest = 0.0;
+  for (const BodyVelocity& own : loads) largest = std::max(largest, own.norm());
+  PathTrial trial;
+  trial.end = start;
+  const double stiffness = step_.stiffness();
+  double inertia = first_inertia;
+  for (int n = 0; n < most_path_steps && trial.iterations < most_newton_steps; ++n) {
+    SpringSolution next = step_.solve(trial.end.force, loads, inertia * stiffness);
+    trial.iterations += std::max(next.iterations, 1);
+    if (!next.converged) {
+      inertia *= shorter;
+      if (inertia > most_inertia) return trial;
+      continue;
+    }
+    double unbalanced = 0.0;
+    for (std::size_t b = 0; b < next.moved.size(); ++b) {
+      trial.end.moved[b] += next.moved[b];
+      unbalanced = std::max(unbalanced, inertia * stiffness * next.moved[b].norm());
+    }
+    trial.end.force = std::move(next.force);
+    trial.states = std::move(next.states);
+    trial.end.displacement = farthest(trial.end.moved);
+    if (trial.end.displacement > allowed_) {
+      trial.outcome = LimitOutcome::moves;
+      trial.way = std::move(next.moved);
+      return trial;
+    }
+    if (unbalanced <= at_rest * largest) {
+      trial.outcome = LimitOutcome::stands;
+      return trial;
+    }
+    inertia = std::max(inertia * longer, least_inertia);
+  }
+  return trial;
+}
+
+std::vector<PairKey> LoadPath::yielding_joints(const PathState& rest, const PathTrial& trial) const {
+  struct Joint {
+    bool closed = false, sticks = false;
+  };
+  double largest = 0.0;
+  for (const Eigen::Vector3d& force : rest.force) largest = std::max(largest, force.norm());
+  std::map<PairKey, Joint> joints;
+  for (std::size_t k = 0; k < model_.points.size(); ++k) {
+    if (model_.points[k].bar) continue;
+    Joint& joint = joints[key_of(model_.points[k].blocks)];
+    joint.closed = joint.closed || rest.force[k].norm() > transmits * largest;
+    joint.sticks = joint.sticks || trial.states[k] == SpringState::sticks;
+  }
+  std::vector<PairKey> yielding;
+  for (const auto& [blocks, joint] : joints)
+    if (joint.closed && !joint.sticks) yielding.push_back(blocks);
+  return yielding;
+}
+
+LimitTrial LoadPath::motion_of(const PathTrial& trial, const LimitFactors& factors) {
+  set_strengths(factors.strength);
+  const std::vector<BodyVelocity> loads = load(factors.load);
+  std::vector<double> dilation;
+  for (std::size_t k = 0; k < model_.points.size(); ++k)
+    dilation.push_back(std::min(model_.points[k].law.dilation, program_.points()[k].strength.friction));
+  LimitTrial shown;
+  shown.factors = factors;
+  shown.released = true;
+  shown.outcome = LimitOutcome::moves;
+  ReleasedMotion motion = motion_from_rest(program_, dilation, loads, trial.end.force);
+  if (motion.outcome == LimitOutcome::moves) {
+    shown.acceleration = std::move(motion.velocity);
+    shown.force = std::move(motion.force);
+    return shown;
+  }
+  shown.slow = true;
+  shown.acceleration = trial.way;
+  shown.force = trial.end.force;
+  const double motion_size = largest_motion(trial.way, loads, program_.loaded_bodies());
+  if (motion_size > 0.0)
+    for (BodyVelocity& velocity : shown.acceleration) velocity *= slow_motion / motion_size;
+  return shown;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,37 @@
+// The factor on strengths or loads up to which blocks stay at rest along the path of load_path.hpp.
+//
+// Each factor is tried from the state at rest under the largest factor below it, so that a factor that stands has been
+// reached at rest all the way. Beyond the associated limit (limit_analysis.hpp) nothing stands, whatever the path.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "solver/statics/load_path.hpp"
+
+namespace ashlar {
+
+enum class Sought { strength, load };
+
+struct PathAnswer {
+  std::optional<double> lower;  ///< the largest factor at rest; empty: blocks move on the way to the least one
+  std::optional<double> upper;  ///< the least factor that moves; empty: even the largest is at rest
+  bool resolved = false;        ///< upper / lower - 1 is within the tolerance, or one of them is empty
+  bool interrupted = false;
+  double displacement = 0.0;  ///< m, at `lower`, from the start of the path
+  /// Factor at which a joint first slides or opens over its whole face, within 1 % or the tolerance; empty: none up to
+  /// `lower`
+  std::optional<double> onset;
+  double onset_displacement = 0.0;     ///< m
+  std::vector<PairKey> onset_joints;   ///< blocks of the joints that yield there
+  std::optional<LimitTrial> motion;    ///< of `upper`, in the model of the path
+  std::vector<LimitTrial> trials;      ///< in order, without motions and forces
+};
+
+/// @param associated bracket of the limit above which nothing stands. @param goes_on called before each trial; false ends
+/// the search
+[[nodiscard]] PathAnswer search_path(LoadPath& path, Sought sought, const LimitSearch& search,
+                                     const LimitBracket& associated, const std::function<bool()>& goes_on);
+
+}  // namespace ashlar
