@@ -9,15 +9,24 @@
 #include "apps/run/factor_search.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/statics/limit_analysis.hpp"
+#include "solver/statics/path_search.hpp"
 #include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/support_movement.hpp"
 #include "solver/statics/thrust.hpp"
 
 namespace ashlar {
 
+/// Result along the load path of a scene.
+struct PathFindings {
+  PathAnswer answer;
+  LimitMotion motion;    ///< at answer.upper; empty: unknown, or nothing moves
+  double allowed = 0.0;  ///< m, the least allowed displacement of any block
+};
+
 /// Result of limit analysis for a scene.
 struct LimitFindings {
   LimitAnswer answer;
+  PathFindings path;       ///< of the factor to be signed: its lower and upper end
   LimitMotion released;    ///< at the smallest factor that moves; empty: none does
   LimitMotion associated;  ///< at the smallest factor above which nothing stands; empty: unknown
 };

@@ -21,6 +21,12 @@ std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>
   return ExpectedFactor{*released.lower, *released.upper};
 }
 
+/// What the first rank finds for all.
+struct FoundLimits {
+  LimitFindings limits;
+  std::vector<RigidDisplacement> drawn;
+};
+
 bool seeks_thrust(const SceneAnalysis& analysis) {
   return analysis.type == SceneAnalysis::Type::thrust;
 }
@@ -80,13 +86,16 @@ bool AnswerSearch::find_thrust_first(const Simulation& placed, const RunObserver
 }
 
 bool AnswerSearch::find_limits_first(const Simulation& placed, const RunObservers& observers) {
-  answer_ = value_of_first(ranks_, [&] {
-    Answer found;
-    found.limits = find_limits(scene_->scene, std::exchange(model_, std::nullopt).value(), threads_,
-                               [&] { return observers.go_on(); });
-    found.drawn = drawn_motion(found.limits->released, whole_ ? whole_->simulation : placed);
-    return found;
+  FoundLimits found = value_of_first(ranks_, [&] {
+    const Simulation& simulation = whole_ ? whole_->simulation : placed;
+    FoundLimits first;
+    first.limits = find_limits(scene_->scene, std::exchange(model_, std::nullopt).value(), simulation,
+                               threads_, [&] { return observers.go_on(); });
+    first.drawn = drawn_motion(signed_motion(first.limits), simulation);
+    return first;
   });
+  answer_.limits = std::move(found.limits);
+  answer_.drawn = std::move(found.drawn);
   whole_.reset();
   observers.tell(&RunObserver::limits_found, *answer_.limits);
   if (answer_.limits->answer.interrupted) {

@@ -32,7 +32,7 @@ void add_answer(nlohmann::ordered_json& summary, const Answer& answer, const Sce
 
 AnsweredEnd drawn_end(const Answer& answer, const SceneAnalysis& analysis, const Simulation& simulation) {
   if (answer.thrust) return {status_of(*answer.thrust), describe(*answer.thrust, simulation)};
-  return {answer.limits->answer.released.resolved ? RunStatus::completed : RunStatus::not_converged,
+  return {answer.limits->path.answer.resolved ? RunStatus::completed : RunStatus::not_converged,
           describe(*answer.limits, analysis, simulation)};
 }
 

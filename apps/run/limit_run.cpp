@@ -9,6 +9,7 @@
 
 #include "apps/run/block_name.hpp"
 #include "apps/run/factor_analysis.hpp"
+#include "apps/run/path_run.hpp"
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
 #include "mechanics/bolt/bolt_strength.hpp"
@@ -33,7 +34,7 @@ bool bolts_are_plastic(const Simulation& simulation) {
   const std::vector<Bolt>& bolts = simulation.system().bolts();
   return std::all_of(bolts.begin(), bolts.end(), [](const Bolt& bolt) {
     const BoltLaw& law = bolt.chain.law();
-    return law.pretension == 0.0 && law.rupture_strain == BoltLaw::unlimited && !is_unlimited(law);
+    return law.rupture_strain == BoltLaw::unlimited && !is_unlimited(law);
   });
 }
 
@@ -80,30 +81,35 @@ std::string names_of(const Simulation& simulation, const std::vector<int>& block
 
 std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& analysis,
                             const Simulation& simulation) {
-  const LimitBracket& released = findings.answer.released;
+  const PathAnswer& path = findings.path.answer;
   const LimitBracket& associated = findings.answer.associated;
   const char* name = is_safety(analysis) ? "factor of safety" : "load factor";
   const SceneAnalysis::FactorSearch& search = search_of(analysis);
-  if (!released.resolved)
+  const auto known = [](const std::optional<double>& factor) {
+    return factor ? fmt::format("{:.5g}", *factor) : std::string("no factor");
+  };
+  if (!path.resolved)
     return fmt::format(
         "no {} to the tolerance of {}: {} stands, {} moves; analysis.method = \"elastic\" may find it", name,
-        search.tolerance, released.lower ? fmt::format("{:.5g}", *released.lower) : "no factor",
-        released.upper ? fmt::format("{:.5g}", *released.upper) : "no factor");
-  if (!released.upper)
+        search.tolerance, known(path.lower), known(path.upper));
+  if (!path.upper)
     return fmt::format("no {} up to {}: nothing moves{}", name, search.upper,
                        is_safety(analysis) ? " with strengths over that" : "");
-  if (!released.lower)
+  const std::string motion = words_of(signed_motion(findings), simulation);
+  if (!path.lower)
     return fmt::format(
-        "no {} down to {}: {}, {}", name, search.lower, words_of(findings.released, simulation),
+        "no {} down to {}: {}, {}", name, search.lower, motion,
         is_safety(analysis) ? fmt::format("also with strengths over {}", search.lower) : "under all loads");
-  std::string text =
-      fmt::format("{} {}: {}", name, between(released), words_of(findings.released, simulation));
+  std::string text = fmt::format("{} between {:.5g} and {:.5g}: {}", name, *path.lower, *path.upper, motion) +
+                     onset_in_words(findings.path, simulation);
   const double apart = 1.0 + 2.0 * search.tolerance;
+  const std::optional<double>& released = findings.answer.released.lower;
+  if (!released || *released * apart < *path.lower)
+    text += fmt::format("; {} if joints do not wedge: {}", known(released), words_of(findings.released, simulation));
   if (!associated.upper)
-    return text + fmt::format(" if joints do not wedge; if they do, nothing moves up to {}", search.upper);
-  if (associated.lower && *associated.lower > apart * *released.upper)
-    text += fmt::format(" if joints do not wedge, {} if they do ({})", between(associated),
-                        words_of(findings.associated, simulation));
+    return text + fmt::format("; if joints dilate, nothing moves up to {}", search.upper);
+  if (associated.lower && *associated.lower > apart * *path.upper)
+    text += fmt::format("; {} if joints dilate: {}", between(associated), words_of(findings.associated, simulation));
   return text;
 }
 
@@ -133,6 +139,10 @@ std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
   const std::string first = block_name(simulation, fastest->block);
   if (motion.blocks.size() == 1) return fmt::format("block {} {}", first, motion.mode);
   return fmt::format("{} blocks move, block {} fastest: it {}", motion.blocks.size(), first, motion.mode);
+}
+
+const LimitMotion& signed_motion(const LimitFindings& findings) {
+  return findings.path.motion.blocks.empty() ? findings.released : findings.path.motion;
 }
 
 std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation) {
@@ -180,7 +190,7 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
                       "loads to multiply move no block (0 N in all), one that can move a block is needed");
 }
 
-LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
+LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
                           const std::function<bool()>& goes_on) {
   LimitFindings findings;
   const JointSelection reduced(scene, scene.analysis.safety.of);
@@ -192,19 +202,30 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
       threads);
   const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
   const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
-  findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, goes_on)
-                                              : analysis.load_factor(search, goes_on);
+  const auto motion_of_path = [&](const LimitBracket& bracket) {
+    findings.path = find_path(scene, simulation, bracket, goes_on);
+    std::optional<LimitTrial> motion = findings.path.answer.motion;
+    // Points of the path are others than those of programmes.
+    if (motion) motion->force.clear();
+    return motion;
+  };
+  findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, goes_on, motion_of_path)
+                                              : analysis.load_factor(search, goes_on, motion_of_path);
   const std::optional<LimitTrial>& released = findings.answer.released.motion;
   const std::optional<LimitTrial>& associated = findings.answer.associated.motion;
   if (associated) findings.associated = analysis.motion_of(*associated);
   // If nothing moves below the associated limit, its motion is both.
-  if (released) findings.released = released->released ? analysis.motion_of(*released) : findings.associated;
+  if (released)
+    findings.released = released->force.empty()  ? findings.path.motion
+                        : released->released ? analysis.motion_of(*released)
+                                             : findings.associated;
   if (!released && findings.answer.released.lower) {
     const double factor = *findings.answer.released.lower;
     const LimitTrial stands = analysis.associated(is_safety(scene.analysis) ? LimitFactors{factor, 1.0}
                                                                             : LimitFactors{1.0, factor});
     findings.released.bars = bar_forces(analysis.model(), stands.force);
   }
+  findings.answer.interrupted = findings.answer.interrupted || findings.path.answer.interrupted;
   return findings;
 }
 
@@ -241,14 +262,15 @@ std::string describe(const LimitFindings& findings, const SceneAnalysis& analysi
 Json limit_summary(const LimitFindings& findings, const Simulation& simulation) {
   const LimitBracket& released = findings.answer.released;
   const LimitBracket& associated = findings.answer.associated;
+  const PathAnswer& path = findings.path.answer;
   Json json = {{"method", "limit"},
-               {"lower", number(released.lower)},
-               {"upper", number(released.upper)},
+               {"lower", number(path.lower)},
+               {"upper", number(path.upper)},
                {"released", number(released.lower)},
                {"associated", number(associated.lower)}};
-  json["gap"] =
-      released.lower && released.upper ? Json(*released.upper / *released.lower - 1.0) : Json(nullptr);
-  add_motion(json, findings.released, simulation);
+  json["gap"] = path.lower && path.upper ? Json(*path.upper / *path.lower - 1.0) : Json(nullptr);
+  add_path(json, findings.path, simulation);
+  add_motion(json, signed_motion(findings), simulation);
   if (!findings.released.bars.empty()) json["bolts"] = bars_json(findings.released.bars, simulation);
   json["kept_by_others"] = names_in_json(findings.answer.kept_by_others, simulation);
   json["associated_bracket"] = {number(associated.lower), number(associated.upper)};

@@ -26,9 +26,10 @@ namespace ashlar {
 /// Reports scenes with nothing to find: no block can move, or no load is multiplied.
 void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model, Diagnostics& diagnostics);
 
-/// @param goes_on called before each trial; false ends the search
-[[nodiscard]] LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
-                                        const std::function<bool()>& goes_on);
+/// @param model of limit_model. @param simulation as placed, without factors. @param goes_on called before each trial;
+/// false ends the search
+[[nodiscard]] LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation,
+                                        int threads, const std::function<bool()>& goes_on);
 
 /// "factor of safety between 0.593 and 0.597 (rock.8 slides on one plane), up to 0.72 if joints wedge (...)"
 [[nodiscard]] std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
@@ -48,6 +49,9 @@ void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation);
 /// forces.
 [[nodiscard]] nlohmann::ordered_json bars_json(const std::vector<BarForce>& forces,
                                                const Simulation& simulation);
+
+/// The motion at the upper end of the factor.
+[[nodiscard]] const LimitMotion& signed_motion(const LimitFindings& findings);
 
 /// "block rock.8 slides on one plane", "12 blocks move, block rock.8 fastest: it topples"
 [[nodiscard]] std::string words_of(const LimitMotion& motion, const Simulation& simulation);

@@ -118,6 +118,10 @@ RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& mul
   return ashlar::rigid_model(system_, state_, end_time, multiplied);
 }
 
+RigidModel Simulation::spring_model(double end_time, const std::vector<bool>& multiplied) const {
+  return ashlar::rigid_model(system_, state_, end_time, multiplied, RigidPointKind::springs);
+}
+
 void Simulation::displace(const std::vector<RigidDisplacement>& displacements) {
   told_.reset();
   for (const RigidDisplacement& way : displacements) {

@@ -134,6 +134,8 @@ class Simulation {
   /// @param multiplied by block: true if its loads are multiplied by a factor; empty: none
   /// @throws std::invalid_argument if a block is incremental
   [[nodiscard]] RigidModel rigid_model(double end_time, const std::vector<bool>& multiplied = {}) const;
+  /// The same with springs in its joints, for a load path (load_path.hpp).
+  [[nodiscard]] RigidModel spring_model(double end_time, const std::vector<bool>& multiplied = {}) const;
   /// Places blocks elsewhere, at rest and without contacts, as a step of its own: to display the onset of motion. On
   /// several ranks the same on all.
   void displace(const std::vector<RigidDisplacement>& displacements);

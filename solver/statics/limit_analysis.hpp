@@ -58,11 +58,17 @@ class LimitAnalysis {
   /// Blocks found to move while all others are held.
   [[nodiscard]] std::vector<int> moving_alone(const LimitFactors& factors, double tolerance);
 
+  /// Motion at a factor below the associated limit that was found otherwise, by that limit: accelerations by body. Empty:
+  /// none
+  using OtherMotion = std::function<std::optional<LimitTrial>(const LimitBracket& associated)>;
+
   /// The factor by which strengths of the chosen joints may be divided. @param goes_on called before each trial;
-  /// false ends the search
-  [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
+  /// false ends the search. @param other called once, before released motions are searched; empty: none
+  [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+                                            const OtherMotion& other = {});
   /// The factor by which the chosen loads may be multiplied, with the others unchanged.
-  [[nodiscard]] LimitAnswer load_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
+  [[nodiscard]] LimitAnswer load_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+                                        const OtherMotion& other = {});
 
   /// The motion of a trial that moves; for an associated one the motion without dilation, if one is found.
   [[nodiscard]] LimitMotion motion_of(const LimitTrial& trial);

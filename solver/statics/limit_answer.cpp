@@ -14,21 +14,22 @@ constexpr double stride = 1.25, short_stride = 1.03, associated_stride = 2.0;
 /// Largest number of searches for a motion below a factor that was found to stand.
 constexpr int most_returns = 30;
 
-enum class Sought { strength, load };
-
 /// The search for both limits of strengths or of loads.
 class LimitSearching {
  public:
   LimitSearching(LimitAnalysis& analysis, Sought sought, const LimitSearch& search,
-                 const std::function<bool()>& goes_on)
-      : analysis_(analysis), sought_(sought), search_(search), goes_on_(goes_on) {}
+                 const std::function<bool()>& goes_on, const LimitAnalysis::OtherMotion& other)
+      : analysis_(analysis), sought_(sought), search_(search), goes_on_(goes_on), other_(other) {}
 
   LimitAnswer run() {
     const double guess = sought_ == Sought::load ? analysis_.most_that_stands(search_.upper) : 0.0;
     const double first = guess > 0.0 ? guess * (1.0 - 0.3 * search_.tolerance) : 1.0;
     narrow(answer_.associated, search_, first, guess, associated_stride,
            [&](double factor) { return attempt(factor, false); });
-    if (!answer_.interrupted) look_below();
+    if (!answer_.interrupted) {
+      const std::optional<LimitTrial> other = other_ ? other_(answer_.associated) : std::nullopt;
+      look_below(other);
+    }
     if (!answer_.interrupted && answer_.released.lower)
       answer_.kept_by_others = analysis_.moving_alone(factors(*answer_.released.lower), search_.tolerance);
     return std::move(answer_);
@@ -69,7 +70,8 @@ class LimitSearching {
   }
 
   /// Searches for a released motion below the associated limit: at the largest factor that stands, and downwards.
-  void look_below() {
+  /// @param other motion, from which the search begins if it is below that
+  void look_below(const std::optional<LimitTrial>& other) {
     const LimitBracket& associated = answer_.associated;
     LimitBracket& released = answer_.released;
     released.upper = associated.upper;
@@ -78,7 +80,22 @@ class LimitSearching {
       released.resolved = associated.resolved;
       return;
     }
-    narrow_released(*associated.lower, stride);
+    double first = *associated.lower;
+    if (other) {
+      const double factor = sought_ == Sought::strength ? other->factors.strength : other->factors.load;
+      if (factor <= search_.lower) {
+        released.upper = factor;
+        released.motion = other;
+        released.resolved = true;
+        return;
+      }
+      if (factor < first) {
+        released.upper = factor;
+        released.motion = other;
+        first = std::max(factor / (1.0 + search_.tolerance), search_.lower);
+      }
+    }
+    narrow_released(first, stride);
     int n = 0;
     for (; n < most_returns && moves_at_lower(); ++n) {
       released.upper = std::exchange(released.lower, std::nullopt);
@@ -103,18 +120,21 @@ class LimitSearching {
   Sought sought_;
   const LimitSearch& search_;
   const std::function<bool()>& goes_on_;
+  const LimitAnalysis::OtherMotion& other_;
   LimitAnswer answer_;
   std::map<double, double> followed_;  ///< by factor, that of the motion at the start of its trial; 0: none
 };
 
 }  // namespace
 
-LimitAnswer LimitAnalysis::strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
-  return LimitSearching(*this, Sought::strength, search, goes_on).run();
+LimitAnswer LimitAnalysis::strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+                                           const OtherMotion& other) {
+  return LimitSearching(*this, Sought::strength, search, goes_on, other).run();
 }
 
-LimitAnswer LimitAnalysis::load_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
-  return LimitSearching(*this, Sought::load, search, goes_on).run();
+LimitAnswer LimitAnalysis::load_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+                                       const OtherMotion& other) {
+  return LimitSearching(*this, Sought::load, search, goes_on, other).run();
 }
 
 }  // namespace ashlar

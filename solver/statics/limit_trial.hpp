@@ -30,6 +30,9 @@ struct LimitTrial {
   int iterations = 0;  ///< of all its programmes, and sweeps
 };
 
+/// Which of both factors is sought; the other one is 1.
+enum class Sought { strength, load };
+
 /// Range and accuracy of a search for a factor.
 struct LimitSearch {
   double lower = 0.1;       ///< > 0

@@ -10,13 +10,14 @@
 namespace ashlar {
 namespace {
 
-/// Inertia of steps over the stiffness of joints: at first, least and most. A step longer by `longer` follows one that
-/// converged, one shorter by `shorter` one that did not.
+/// Inertia of steps over the stiffness of joints: at first, least and most.
 constexpr double first_inertia = 1e-7, least_inertia = 1e-14, most_inertia = 1e3;
-constexpr double longer = 0.1, shorter = 10.0;
+/// Ratio of inertia after a step that converged, and after one that did not; then so many steps converge first.
+constexpr double lighter = 0.1, heavier = 10.0;
 /// Relative to the largest load: unbalanced force at rest.
 constexpr double at_rest = 1e-6;
-constexpr int most_path_steps = 300, most_newton_steps = 3000;
+constexpr int calm_steps = 4;
+constexpr int most_path_steps = 300, most_newton_steps = 1000;
 /// Relative to the largest load: the inertia of motion that has no acceleration.
 constexpr double slow_motion = 1e-4;
 /// Relative to the largest force of a joint: it transmits force.
@@ -33,10 +34,10 @@ std::vector<JointSpring> springs_of(const RigidModel& model) {
 
 }  // namespace
 
-LoadPath::LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced, double allowed)
+LoadPath::LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced, std::vector<double> allowed)
     : model_(std::move(model)),
       reduced_(reduced_points(model_, reduced)),
-      allowed_(allowed),
+      allowed_(std::move(allowed)),
       program_(program_of(model_, 1)),
       step_(program_, springs_of(model_)) {}
 
@@ -59,21 +60,29 @@ std::vector<BodyVelocity> LoadPath::load(double factor) const {
   return load;
 }
 
-double LoadPath::farthest(const std::vector<BodyVelocity>& moved) const {
-  double squared = 0.0;
-  for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
-    const auto [a, b] = model_.pairs[n].bodies;
-    for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
-      const ConePoint& point = program_.points()[k];
-      if (a >= 0) squared = std::max(squared, (point.first * moved[at(a)]).squaredNorm());
-      if (b >= 0) squared = std::max(squared, (point.second * moved[at(b)]).squaredNorm());
+double LoadPath::note_displacement(PathState& state) const {
+  std::vector<double> squared(model_.bodies.size(), 0.0);
+  for (const ConePair& pair : model_.pairs) {
+    const auto [a, b] = pair.bodies;
+    const auto note = [&](int body, const ConeRows& rows) {
+      if (body < 0) return;
+      squared[at(body)] = std::max(squared[at(body)], (rows * state.moved[at(body)]).squaredNorm());
+    };
+    for (std::size_t k = pair.begin; k < pair.end; ++k) {
+      note(a, program_.points()[k].first);
+      note(b, program_.points()[k].second);
     }
   }
-  // Bodies without any joint.
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b)
-    if (!model_.bodies[b].blocks.empty())
-      squared = std::max(squared, ashlar::motion_of(model_.bodies[b], moved[b]).translation.squaredNorm());
-  return std::sqrt(squared);
+  double share = 0.0;
+  state.displacement = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    if (model_.bodies[b].blocks.empty()) continue;
+    const RigidMotionOf centre = ashlar::motion_of(model_.bodies[b], state.moved[b]);
+    const double farthest = std::sqrt(std::max(squared[b], centre.translation.squaredNorm()));
+    state.displacement = std::max(state.displacement, farthest);
+    share = std::max(share, farthest / allowed_[b]);
+  }
+  return share;
 }
 
 PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
@@ -85,11 +94,13 @@ PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
   trial.end = start;
   const double stiffness = step_.stiffness();
   double inertia = first_inertia;
+  int calm = 0;  // steps to take before a longer one is tried
   for (int n = 0; n < most_path_steps && trial.iterations < most_newton_steps; ++n) {
     SpringSolution next = step_.solve(trial.end.force, loads, inertia * stiffness);
     trial.iterations += std::max(next.iterations, 1);
     if (!next.converged) {
-      inertia *= shorter;
+      inertia *= heavier;
+      calm = calm_steps;
       if (inertia > most_inertia) return trial;
       continue;
     }
@@ -100,8 +111,7 @@ PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
     }
     trial.end.force = std::move(next.force);
     trial.states = std::move(next.states);
-    trial.end.displacement = farthest(trial.end.moved);
-    if (trial.end.displacement > allowed_) {
+    if (note_displacement(trial.end) > 1.0) {
       trial.outcome = LimitOutcome::moves;
       trial.way = std::move(next.moved);
       return trial;
@@ -110,7 +120,7 @@ PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
       trial.outcome = LimitOutcome::stands;
       return trial;
     }
-    inertia = std::max(inertia * longer, least_inertia);
+    if (--calm <= 0) inertia = std::max(inertia * lighter, least_inertia);
   }
   return trial;
 }

@@ -26,7 +26,7 @@ namespace ashlar {
 struct PathState {
   std::vector<Eigen::Vector3d> force;  ///< by point, in units of the model
   std::vector<BodyVelocity> moved;     ///< by body, m
-  double displacement = 0.0;           ///< m, the largest of any point of a joint
+  double displacement = 0.0;           ///< m, the largest of any body, at its joints or centre of gravity
 };
 
 struct PathTrial {
@@ -40,17 +40,13 @@ struct PathTrial {
 class LoadPath {
  public:
   /// @param model with springs (RigidPointKind::springs). @param reduced true for joints of two blocks whose strength is
-  /// divided. @param allowed m, > 0
-  LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced, double allowed);
+  /// divided. @param allowed displacement by body, m, > 0; infinite: any
+  LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced, std::vector<double> allowed);
 
   [[nodiscard]] const RigidModel& model() const { return model_; }
-  [[nodiscard]] double allowed() const { return allowed_; }
 
   /// Joints without force but for the pretension of bars.
   [[nodiscard]] PathState unloaded() const;
-  /// A strength factor at which nothing slides or tears: strengths are multiplied by a million.
-  static constexpr double nothing_slides = 1e-6;
-
   /// From one state to rest under other factors, or to motion.
   [[nodiscard]] PathTrial to(const PathState& start, const LimitFactors& factors);
 
@@ -66,11 +62,12 @@ class LoadPath {
  private:
   void set_strengths(double factor);
   [[nodiscard]] std::vector<BodyVelocity> load(double factor) const;
-  [[nodiscard]] double farthest(const std::vector<BodyVelocity>& moved) const;
+  /// Sets the displacement of a state. @return the largest share of what is allowed
+  double note_displacement(PathState& state) const;
 
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point
-  double allowed_;
+  std::vector<double> allowed_;  ///< by body
   ConeProgram program_;
   SpringStep step_;
 };

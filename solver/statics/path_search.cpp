@@ -16,6 +16,9 @@ constexpr double path_stride = 1.5;
 /// Relative accuracy of the onset, and the finest one.
 constexpr double onset_accuracy = 0.01;
 constexpr int most_path_trials = 60;
+/// Strength factor at the start of the path: with ten times their strength joints neither slide nor tear, unless blocks
+/// would wedge at any friction that there is.
+constexpr double nothing_slides = 0.1;
 
 /// Search along one path.
 class PathSearch {
@@ -30,6 +33,10 @@ class PathSearch {
       const std::optional<double> next = next_factor();
       if (!next || !attempt(*next)) break;
     }
+    if (!answer_.upper && associated_.upper && answer_.lower && answer_.lower == associated_.lower) {
+      answer_.upper = associated_.upper;
+      answer_.proven = true;
+    }
     answer_.resolved = is_resolved();
     if (answer_.lower) answer_.displacement = rest_.rbegin()->second.end.displacement;
     if (!answer_.interrupted) find_onset();
@@ -43,7 +50,7 @@ class PathSearch {
 
   /// The state at the start of the path. @return false if blocks move before it
   bool begin() {
-    const LimitFactors first = sought_ == Sought::strength ? LimitFactors{LoadPath::nothing_slides, 1.0}
+    const LimitFactors first = sought_ == Sought::strength ? LimitFactors{nothing_slides, 1.0}
                                                            : LimitFactors{1.0, 0.0};
     PathTrial trial = path_.to(path_.unloaded(), first);
     note(0.0, trial);
@@ -53,11 +60,10 @@ class PathSearch {
       rest_.emplace(0.0, std::move(trial));
       return true;
     }
-    if (trial.outcome == LimitOutcome::moves) {
-      answer_.upper = search_.lower;
-      answer_.motion = path_.motion_of(trial, first);
-      answer_.resolved = true;
-    }
+    answer_.upper = search_.lower;
+    answer_.resolved = true;
+    answer_.proven = trial.outcome == LimitOutcome::moves;
+    if (answer_.proven) answer_.motion = path_.motion_of(trial, first);
     return false;
   }
 
@@ -82,15 +88,14 @@ class PathSearch {
       rest_.emplace(factor, std::move(trial));
       return true;
     }
-    // A trial without a result is tried again from nearer to it; at the end of the search it counts as moving.
     answer_.upper = factor;
-    unknown_ = trial.outcome == LimitOutcome::unknown;
-    if (!unknown_) answer_.motion = path_.motion_of(trial, factors(factor));
+    answer_.proven = trial.outcome == LimitOutcome::moves;
+    answer_.motion.reset();
+    if (answer_.proven) answer_.motion = path_.motion_of(trial, factors(factor));
     return true;
   }
 
   [[nodiscard]] bool is_resolved() const {
-    if (unknown_) return false;
     if (answer_.lower && answer_.upper)
       return *answer_.upper <= *answer_.lower * (1.0 + search_.tolerance);
     return answer_.lower ? *answer_.lower >= search_.upper : answer_.upper && *answer_.upper <= search_.lower;
@@ -158,7 +163,6 @@ class PathSearch {
   const std::function<bool()>& goes_on_;
   PathAnswer answer_;
   std::map<double, PathTrial> rest_;  ///< by factor, states at rest in the order of the path; 0: its start
-  bool unknown_ = false;              ///< the trial at `upper` has no result
 };
 
 }  // namespace

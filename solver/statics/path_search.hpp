@@ -2,6 +2,8 @@
 //
 // Each factor is tried from the state at rest under the largest factor below it, so that a factor that stands has been
 // reached at rest all the way. Beyond the associated limit (limit_analysis.hpp) nothing stands, whatever the path.
+//
+// A trial without a result in bounded work counts as one that moves: a factor is on the safe side. `proven` tells.
 #pragma once
 
 #include <functional>
@@ -12,11 +14,10 @@
 
 namespace ashlar {
 
-enum class Sought { strength, load };
-
 struct PathAnswer {
   std::optional<double> lower;  ///< the largest factor at rest; empty: blocks move on the way to the least one
-  std::optional<double> upper;  ///< the least factor that moves; empty: even the largest is at rest
+  std::optional<double> upper;  ///< the least factor not seen to stand; empty: even the largest is at rest
+  bool proven = false;          ///< blocks move at `upper`
   bool resolved = false;        ///< upper / lower - 1 is within the tolerance, or one of them is empty
   bool interrupted = false;
   double displacement = 0.0;  ///< m, at `lower`, from the start of the path

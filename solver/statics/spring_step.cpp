@@ -20,6 +20,8 @@ constexpr int most_corrections = 40;
 constexpr double balanced = 1e-9;
 /// Share of the reduction of the residual that a linear one would have; the shortest step.
 constexpr double descent = 0.1, shortest = 0.02;
+/// A step may raise the residual up to the largest of this many steps before: the tangent jumps where states change.
+constexpr std::size_t remembered = 6;
 
 }  // namespace
 
@@ -177,12 +179,16 @@ SpringSolution SpringStep::solve(const std::vector<Vector3d>& start, const std::
   std::vector<Matrix3d> tangents(start.size()), next_tangents(start.size());
   Eigen::VectorXd left = residual(start, load, inertia, now, tangents);
   SpringSolution next = now;
+  std::vector<double> sizes;
   for (; now.iterations < most_corrections; ++now.iterations) {
     const double size = left.norm();
     now.converged = size <= balanced * scale;
     if (now.converged || !std::isfinite(size) || !factorize(tangents, inertia)) break;
     const Eigen::VectorXd way = matrix_->factor.solve(left);
     if (!way.allFinite()) break;
+    sizes.push_back(size);
+    const auto first = sizes.size() > remembered ? sizes.end() - remembered : sizes.begin();
+    const double allowed = *std::max_element(first, sizes.end());
     double share = 1.0;
     Eigen::VectorXd next_left;
     for (;; share *= 0.5) {
@@ -190,7 +196,7 @@ SpringSolution SpringStep::solve(const std::vector<Vector3d>& start, const std::
         next.moved[b].head(program_.freedom(b)) =
             now.moved[b].head(program_.freedom(b)) + share * way.segment(offsets_[b], program_.freedom(b));
       next_left = residual(start, load, inertia, next, next_tangents);
-      if (next_left.norm() < (1.0 - descent * share) * size || share < shortest) break;
+      if (next_left.norm() < (1.0 - descent * share) * allowed || share < shortest) break;
     }
     now.moved.swap(next.moved);
     now.force.swap(next.force);

@@ -71,6 +71,7 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_number("end_time", analysis.end_time, range::positive);
   read_time_step(table, analysis);
   table.read_number("accuracy", analysis.accuracy, range::positive_to_one);
+  table.read_number("allowed_displacement", analysis.allowed_displacement, range::positive);
   table.read_choice("integrator", analysis.integrator, integrator_names);
   table.read_number("spectral_radius", analysis.spectral_radius, range::zero_to_one);
   table.read_choice("formulation", analysis.formulation, formulation_names);

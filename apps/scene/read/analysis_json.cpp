@@ -60,6 +60,7 @@ Json to_json(const SceneAnalysis& analysis) {
                {"formulation", name_of(formulation_names, analysis.formulation)},
                {"initial_state", name_of(initial_state_names, analysis.initial_state)}};
   if (analysis.accuracy) json["accuracy"] = *analysis.accuracy;
+  if (analysis.allowed_displacement) json["allowed_displacement"] = *analysis.allowed_displacement;
   add_gravity(json, analysis);
   json["solver"] = name_of(solver_names, analysis.solver);
   json["mass_damping"] = analysis.mass_damping;
