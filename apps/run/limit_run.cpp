@@ -105,11 +105,13 @@ std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& 
   const double apart = 1.0 + 2.0 * search.tolerance;
   const std::optional<double>& released = findings.answer.released.lower;
   if (!released || *released * apart < *path.lower)
-    text += fmt::format("; {} if joints do not wedge: {}", known(released), words_of(findings.released, simulation));
+    text += fmt::format("; {} if joints do not wedge: {}", known(released),
+                        words_of(findings.released, simulation));
   if (!associated.upper)
     return text + fmt::format("; if joints dilate, nothing moves up to {}", search.upper);
   if (associated.lower && *associated.lower > apart * *path.upper)
-    text += fmt::format("; {} if joints dilate: {}", between(associated), words_of(findings.associated, simulation));
+    text += fmt::format("; {} if joints dilate: {}", between(associated),
+                        words_of(findings.associated, simulation));
   return text;
 }
 
@@ -216,9 +218,9 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation
   if (associated) findings.associated = analysis.motion_of(*associated);
   // If nothing moves below the associated limit, its motion is both.
   if (released)
-    findings.released = released->force.empty()  ? findings.path.motion
-                        : released->released ? analysis.motion_of(*released)
-                                             : findings.associated;
+    findings.released = released->force.empty() ? findings.path.motion
+                        : released->released    ? analysis.motion_of(*released)
+                                                : findings.associated;
   if (!released && findings.answer.released.lower) {
     const double factor = *findings.answer.released.lower;
     const LimitTrial stands = analysis.associated(is_safety(scene.analysis) ? LimitFactors{factor, 1.0}

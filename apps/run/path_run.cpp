@@ -27,7 +27,8 @@ std::vector<double> allowed_displacements(const Scene& scene, const Simulation& 
   for (const RigidBody& body : model.bodies) {
     double least = std::numeric_limits<double>::infinity();
     for (const int block : body.blocks)
-      least = std::min(least, allowed_share * block_size(simulation.blocks()[static_cast<std::size_t>(block)]));
+      least =
+          std::min(least, allowed_share * block_size(simulation.blocks()[static_cast<std::size_t>(block)]));
     if (!body.blocks.empty()) least = scene.analysis.allowed_displacement.value_or(least);
     allowed.push_back(least);
   }
@@ -57,10 +58,8 @@ PathFindings find_path(const Scene& scene, const Simulation& simulation, const L
       std::move(allowed));
   const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
   const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
-  found.answer =
-      search_path(path, safety ? Sought::strength : Sought::load, search, associated, goes_on);
-  if (found.answer.motion)
-    found.motion = limit_motion(path.model(), path.program(), *found.answer.motion);
+  found.answer = search_path(path, safety ? Sought::strength : Sought::load, search, associated, goes_on);
+  if (found.answer.motion) found.motion = limit_motion(path.model(), path.program(), *found.answer.motion);
   return found;
 }
 
@@ -69,8 +68,8 @@ std::string onset_in_words(const PathFindings& path, const Simulation& simulatio
   if (!answer.onset || !answer.lower || answer.onset_joints.empty()) return "";
   if (*answer.onset > 0.99 * *answer.lower) return "";
   const PairKey& first = answer.onset_joints.front();
-  return fmt::format("; joints yield from {:.4g} on (first that of {} and {}), by {:.3g} mm at {:.5g}", *answer.onset,
-                     block_name(simulation, first[0]), block_name(simulation, first[1]),
+  return fmt::format("; joints yield from {:.4g} on (first that of {} and {}), by {:.3g} mm at {:.5g}",
+                     *answer.onset, block_name(simulation, first[0]), block_name(simulation, first[1]),
                      1e3 * answer.displacement, *answer.lower);
 }
 

@@ -18,6 +18,7 @@
 #include "apps/run/limit_run.hpp"
 #include "apps/run/run_setup.hpp"
 #include "apps/run/thrust_run.hpp"
+#include "apps/run/trial_run.hpp"
 #include "apps/scene/build/initial_state.hpp"
 #include "apps/scene/check/added_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
@@ -165,6 +166,7 @@ bool Run::search_piece() {
     const SceneAnalysis& analysis = whole().analysis;
     built_ = built_stage(scene_, manner_.threads, manner_.ranks,
                          trial_factors(analysis, shown_factor(*answer_.bracket, search_of(analysis))));
+    if (!earlier_) start_at_rest(*scene_, manner_.threads, manner_.ranks, built_.simulation);
   }
   if (earlier_) built_.simulation.restore(earlier_->simulation);
   search_.reset();

@@ -1,4 +1,6 @@
-// A static analysis of a search for a factor, iteration by iteration.
+// A static analysis of a search for a factor, iteration by iteration, along the load path of limit analysis
+// (solver/statics/load_path.hpp): blocks first come to rest under their first loads, for a factor of safety with ten times
+// their strength, for a capacity without the multiplied loads, and from there under the factor.
 #pragma once
 
 #include <optional>
@@ -13,7 +15,7 @@ namespace ashlar {
 
 class TrialRun {
  public:
-  /// From the blocks as placed. If they cannot be built the trial has ended, inconclusive.
+  /// Begins with the blocks as placed. If they cannot be built the trial has ended, inconclusive.
   /// @param scene must outlive this. @param ranks that share the trial, all members but plain values are collective then;
   /// null: none
   TrialRun(const LoadedScene& scene, double factor, int threads, const RunRanks* ranks = nullptr);
@@ -34,12 +36,22 @@ class TrialRun {
   void restore(const RunCheckpoint& state);
 
  private:
+  /// Goes on from the state at rest under the factor. @return false if blocks cannot be built
+  bool leave_rest();
+
+  const LoadedScene& scene_;
+  int threads_;
+  const RunRanks* ranks_;
   double factor_;
-  double end_time_;  ///< s, of the loads
+  double end_time_;         ///< s, of the loads
+  bool at_factor_ = false;  ///< true: under the factor, false: under the first loads
   std::optional<BuiltSimulation> built_;
   ContactChanges changes_;
   std::optional<FactorTrial> result_;
   std::string reason_;
 };
+
+/// Starts a simulation of the scene under the factor from the state at rest of the first loads, if they have one.
+void start_at_rest(const LoadedScene& scene, int threads, const RunRanks* ranks, Simulation& under_factor);
 
 }  // namespace ashlar

@@ -34,7 +34,8 @@ std::vector<JointSpring> springs_of(const RigidModel& model) {
 
 }  // namespace
 
-LoadPath::LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced, std::vector<double> allowed)
+LoadPath::LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced,
+                   std::vector<double> allowed)
     : model_(std::move(model)),
       reduced_(reduced_points(model_, reduced)),
       allowed_(std::move(allowed)),

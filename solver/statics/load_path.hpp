@@ -32,8 +32,8 @@ struct PathState {
 struct PathTrial {
   LimitOutcome outcome = LimitOutcome::unknown;
   PathState end;
-  std::vector<BodyVelocity> way;     ///< of the last step, for a trial that moves
-  std::vector<SpringState> states;   ///< by point
+  std::vector<BodyVelocity> way;    ///< of the last step, for a trial that moves
+  std::vector<SpringState> states;  ///< by point
   int iterations = 0;
 };
 
@@ -66,7 +66,7 @@ class LoadPath {
   double note_displacement(PathState& state) const;
 
   RigidModel model_;
-  std::vector<bool> reduced_;  ///< by point
+  std::vector<bool> reduced_;    ///< by point
   std::vector<double> allowed_;  ///< by body
   ConeProgram program_;
   SpringStep step_;

@@ -15,7 +15,8 @@
 namespace ashlar {
 
 struct PathAnswer {
-  std::optional<double> lower;  ///< the largest factor at rest; empty: blocks move on the way to the least one
+  std::optional<double>
+      lower;  ///< the largest factor at rest; empty: blocks move on the way to the least one
   std::optional<double> upper;  ///< the least factor not seen to stand; empty: even the largest is at rest
   bool proven = false;          ///< blocks move at `upper`
   bool resolved = false;        ///< upper / lower - 1 is within the tolerance, or one of them is empty
@@ -24,10 +25,10 @@ struct PathAnswer {
   /// Factor at which a joint first slides or opens over its whole face, within 1 % or the tolerance; empty: none up to
   /// `lower`
   std::optional<double> onset;
-  double onset_displacement = 0.0;     ///< m
-  std::vector<PairKey> onset_joints;   ///< blocks of the joints that yield there
-  std::optional<LimitTrial> motion;    ///< of `upper`, in the model of the path
-  std::vector<LimitTrial> trials;      ///< in order, without motions and forces
+  double onset_displacement = 0.0;    ///< m
+  std::vector<PairKey> onset_joints;  ///< blocks of the joints that yield there
+  std::optional<LimitTrial> motion;   ///< of `upper`, in the model of the path
+  std::vector<LimitTrial> trials;     ///< in order, without motions and forces
 };
 
 /// @param associated bracket of the limit above which nothing stands. @param goes_on called before each trial; false ends

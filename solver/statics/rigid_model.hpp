@@ -94,7 +94,7 @@ struct RigidModel {
 
 /// Points of a model.
 enum class RigidPointKind {
-  limit,   ///< corners of overlaps, and their parts where they have cohesion or tensile strength: for programmes
+  limit,  ///< corners of overlaps, and their parts where they have cohesion or tensile strength: for programmes
   springs  ///< quadrature of area springs with the corners included (affine_rule()): for load_path.hpp
 };
 

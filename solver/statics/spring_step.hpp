@@ -66,7 +66,8 @@ class SpringStep {
     SpringState state;
   };
 
-  [[nodiscard]] Response response(std::size_t k, const Eigen::Vector3d& start, const Eigen::Vector3d& d) const;
+  [[nodiscard]] Response response(std::size_t k, const Eigen::Vector3d& start,
+                                  const Eigen::Vector3d& d) const;
   /// Fills forces and states. @return F + G'p - m u
   [[nodiscard]] Eigen::VectorXd residual(const std::vector<Eigen::Vector3d>& start,
                                          const std::vector<BodyVelocity>& load, double inertia,
