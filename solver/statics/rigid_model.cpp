@@ -223,16 +223,25 @@ std::vector<bool> reduced_points(const RigidModel& model, const std::function<bo
   return points;
 }
 
-ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor) {
+ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor, JointUse use) {
   if (point.bar) {
     const double unit = model.units.force();
     return {0.0, point.bar->shear / unit, point.bar->tension / unit, point.bar->compression / unit};
   }
-  const double friction = point.law.friction / factor;
+  double friction = point.law.friction / factor;
+  if (use == JointUse::pulled && point.law.tensile_strength > 0.0)
+    friction = std::min(friction, point.law.cohesion / point.law.tensile_strength);
   if (point.area == 0.0) return {friction, 0.0, 0.0};
   const double cohesion = point.law.cohesion * point.area / factor / model.units.force();
   const double tension = point.law.tensile_strength * point.area / factor / model.units.force();
-  return {friction, cohesion, friction > 0.0 ? std::min(tension, cohesion / friction) : tension};
+  if (point.spring.normal > 0.0) {
+    ConeStrength strength{friction, cohesion, tension};
+    strength.keeps_cohesion = true;
+    return strength;
+  }
+  if (use == JointUse::either) return {friction, std::max(cohesion, friction * tension), tension};
+  const bool has_tip = use == JointUse::pressed && friction > 0.0;
+  return {friction, cohesion, has_tip ? std::min(tension, cohesion / friction) : tension};
 }
 
 std::vector<ConePoint> cone_points(const RigidModel& model, FrictionAt friction) {
@@ -281,8 +290,9 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
     const double shear = force[k].tail<2>().norm();
     const double limit =
         strength.friction * std::max(force[k][0], 0.0) + strength.cohesion * model.units.force();
+    const bool slides = shear > bears * largest && shear >= at_limit * limit;
     response.state = force[k].norm() <= bears * largest ? ContactState::open
-                     : shear >= at_limit * limit        ? ContactState::sliding
+                     : slides                           ? ContactState::sliding
                                                         : ContactState::locked;
     if (response.state == ContactState::open) response.force.setZero();
     record.points.push_back(point.contact);

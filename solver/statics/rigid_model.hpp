@@ -94,7 +94,7 @@ struct RigidModel {
 
 /// Points of a model.
 enum class RigidPointKind {
-  limit,   ///< corners of overlaps, and their parts where they have cohesion or tensile strength: for programmes
+  limit,  ///< corners of overlaps, and their parts where they have cohesion or tensile strength: for programmes
   springs  ///< quadrature of area springs with the corners included (affine_rule()): for load_path.hpp
 };
 
@@ -122,9 +122,17 @@ enum class FrictionAt { corners, uniform_pressure };
 [[nodiscard]] std::vector<bool> reduced_points(const RigidModel& model,
                                                const std::function<bool(int, int)>& reduced);
 
+/// Convex part of the law of a joint in a programme (pulled_joints.hpp).
+enum class JointUse {
+  pressed,  ///< all friction, tension up to cohesion / friction
+  pulled,   ///< all tensile strength, friction up to cohesion / tension
+  either    ///< a set that contains both, and exceeds the law: not for results
+};
+
 /// Strength of a point, with friction, cohesion and tensile strength of a joint divided by a factor, but not the
-/// strength of a bar. @param factor > 0
-[[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor);
+/// strength of a bar. Springs have the law of joint_law.hpp. @param factor > 0
+[[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor,
+                                       JointUse use = JointUse::pressed);
 
 /// True if any load on a body is multiplied.
 [[nodiscard]] bool multiplies_loads(const RigidModel& model);
