@@ -315,6 +315,34 @@ bool loses_strength(const RigidModel& model) {
   });
 }
 
+void keep_residual_strength(RigidModel& model) {
+  if (!loses_strength(model)) return;
+  model.has_residual_strength = true;
+  std::vector<RigidPoint> points;
+  std::vector<ConePair> pairs;
+  for (ConePair pair : model.pairs) {
+    const std::size_t begin = points.size();
+    for (std::size_t k = pair.begin; k < pair.end; ++k) {
+      RigidPoint& point = model.points[k];
+      JointLaw& law = point.law;
+      if (!point.bar) {
+        const PointLaw failed = point_law(law, 1.0, false);
+        law.friction = failed.friction;
+        law.cohesion = failed.cohesion;
+        law.tensile_strength = failed.tension;
+        law.residual = ResidualStrength{law.friction, law.cohesion, law.tensile_strength};
+        law.fracture = {};
+      }
+      // Parts of overlaps transmit cohesion and tension alone.
+      const bool part = !point.bar && point.area > 0.0 && point.spring.normal == 0.0;
+      if (!part || law.cohesion > 0.0 || law.tensile_strength > 0.0) points.push_back(std::move(point));
+    }
+    if (points.size() > begin) pairs.push_back({pair.bodies, begin, points.size()});
+  }
+  model.points = std::move(points);
+  model.pairs = std::move(pairs);
+}
+
 RigidMotionOf motion_of(const RigidBody& body, const BodyVelocity& coordinates) {
   const BodyVelocity motion = body.motion * coordinates;
   return {motion.head<3>(), motion.tail<3>()};

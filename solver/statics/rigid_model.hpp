@@ -90,6 +90,7 @@ struct RigidModel {
   RigidUnits units;
   std::vector<BodyVelocity> steady;      ///< loads without factor, gravity included, in units
   std::vector<BodyVelocity> multiplied;  ///< loads with factor, in units
+  bool has_residual_strength = false;    ///< keep_residual_strength() has changed a joint
 };
 
 /// Points of a model.
@@ -139,6 +140,9 @@ enum class JointUse {
 
 /// True if any joint loses strength permanently when it fails, which limit analysis does not represent.
 [[nodiscard]] bool loses_strength(const RigidModel& model);
+
+/// Gives joints that lose strength the strength that they keep: limits are then on the safe side.
+void keep_residual_strength(RigidModel& model);
 
 /// Forces of points as contacts of their pairs of blocks, lower block first. @param force N, by point, in its frame
 [[nodiscard]] std::vector<PairRecord> contact_records(const RigidModel& model,
