@@ -258,10 +258,6 @@ ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap,
                   : ClosedShare{end_gap / difference, -start_gap / (difference * difference)};
 }
 
-}  // namespace
-
-namespace {
-
 /// Normal force over a step with a given gap at its end, and the bound of the shear force.
 struct MeanNormal {
   PointResponse end;           ///< of the spring
