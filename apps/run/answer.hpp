@@ -26,9 +26,10 @@ struct PathFindings {
 /// Result of limit analysis for a scene.
 struct LimitFindings {
   LimitAnswer answer;
-  PathFindings path;       ///< of the factor to be signed: its lower and upper end
-  LimitMotion released;    ///< at the smallest factor that moves; empty: none does
-  LimitMotion associated;  ///< at the smallest factor above which nothing stands; empty: unknown
+  PathFindings path;                   ///< of the factor to be signed: its lower and upper end
+  LimitMotion released;                ///< at the smallest factor that moves; empty: none does
+  LimitMotion associated;              ///< at the smallest factor above which nothing stands; empty: unknown
+  bool has_residual_strength = false;  ///< of joints that lose strength, instead of their strength
 };
 
 /// An extreme of the thrust on one support, and its line of thrust.

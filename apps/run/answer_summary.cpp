@@ -1,6 +1,9 @@
 #include "apps/run/answer_summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/limit_run.hpp"
@@ -15,6 +18,18 @@ RunStatus status_of(const ThrustFindings& thrust) {
   const bool known = std::none_of(thrust.movements.begin(), thrust.movements.end(),
                                   [](const SupportMovement& movement) { return is_open(movement); });
   return thrust.supports.empty() || !known ? RunStatus::not_converged : RunStatus::completed;
+}
+
+/// Where rigid blocks have another factor on the same path, which of both to sign: friction has several equilibria.
+std::string rigid_difference(const Answer& answer) {
+  constexpr double alike = 1.03;
+  if (!answer.limits || !answer.bracket->lower || !answer.limits->path.answer.lower) return "";
+  const double elastic = *answer.bracket->lower, rigid = *answer.limits->path.answer.lower;
+  if (elastic <= alike * rigid && rigid <= alike * elastic) return "";
+  return fmt::format(
+      "; rigid blocks on the same path stand up to {:.5g}: friction has several equilibria here, and the forces that "
+      "joints have at rest decide; the smaller factor is safe for both",
+      rigid);
 }
 
 }  // namespace
@@ -36,13 +51,14 @@ AnsweredEnd drawn_end(const Answer& answer, const SceneAnalysis& analysis, const
           describe(*answer.limits, analysis, simulation)};
 }
 
-AnsweredEnd bracket_end(const FactorBracket& bracket, const SceneAnalysis& analysis,
-                        const Simulation& simulation, AnsweredEnd shown) {
+AnsweredEnd bracket_end(const Answer& answer, const SceneAnalysis& analysis, const Simulation& simulation,
+                        AnsweredEnd shown) {
+  const FactorBracket& bracket = *answer.bracket;
   if (shown.status == RunStatus::interrupted) return shown;
   std::string motion = shown.status == RunStatus::moving ? motion_in_words(simulation) : "";
   if (!motion.empty()) motion.insert(0, ": ");
   return {bracket.resolved ? RunStatus::completed : RunStatus::not_converged,
-          describe(bracket, analysis) + motion};
+          describe(bracket, analysis) + motion + rigid_difference(answer)};
 }
 
 void draw_answer(const Answer& answer, const Scene& scene, const Simulation& simulation,

@@ -26,7 +26,7 @@ struct AnsweredEnd {
 [[nodiscard]] AnsweredEnd drawn_end(const Answer& answer, const SceneAnalysis& analysis,
                                     const Simulation& simulation);
 /// End of a search by static analyses whose motion was shown. @param shown its end: interrupts remain as they are
-[[nodiscard]] AnsweredEnd bracket_end(const FactorBracket& bracket, const SceneAnalysis& analysis,
+[[nodiscard]] AnsweredEnd bracket_end(const Answer& answer, const SceneAnalysis& analysis,
                                       const Simulation& simulation, AnsweredEnd shown);
 
 /// Draws lines of thrust (thrust.svg) and the first support's movement (movement.svg) into a folder. Does nothing

@@ -119,6 +119,7 @@ std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& 
 std::string remarks(const LimitFindings& findings, const Simulation& simulation) {
   std::string text;
   const std::vector<int>& kept = findings.answer.kept_by_others;
+  if (findings.has_residual_strength) text += ", by the residual strength of joints";
   if (!kept.empty())
     text += fmt::format("; {} would move below it but for the pressure of other blocks",
                         names_of(simulation, kept));
@@ -156,8 +157,10 @@ std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simu
       (scene.analysis.method == SceneAnalysis::Method::elastic || !bolts_are_plastic(simulation)))
     return std::nullopt;
   const bool multiplies = scene.analysis.type == SceneAnalysis::Type::capacity;
-  return simulation.rigid_model(scene.analysis.end_time,
-                                multiplies ? multiplied_blocks(scene) : std::vector<bool>());
+  RigidModel model = simulation.rigid_model(scene.analysis.end_time,
+                                            multiplies ? multiplied_blocks(scene) : std::vector<bool>());
+  if (by_choice) keep_residual_strength(model);
+  return model;
 }
 
 bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& model) {
@@ -166,6 +169,38 @@ bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& mo
   // Stress of the ground clamps blocks, which limit analysis begins without.
   return model && !loses_strength(*model) && !scene.initial_stress.given();
 }
+
+namespace {
+
+/// True if any joint loses strength at once.
+bool is_brittle(const RigidModel& model) {
+  return std::any_of(model.points.begin(), model.points.end(), [](const RigidPoint& point) {
+    const PointLaw law = point_law(point.law, 1.0, true);
+    return !point.bar && !law.bond.softens() && law.weakens();
+  });
+}
+
+/// Tells which strength an answer is for where joints lose it.
+void warn_of_lost_strength(const Scene& scene, const RigidModel& model, Diagnostics& diagnostics) {
+  const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
+  const bool chosen = scene.places.contains("analysis.method");
+  const Place place = scene.places.value(chosen ? "analysis.method" : "analysis.type");
+  if (model.has_residual_strength) {
+    diagnostics.warning(
+        place, fmt::format("joints lose strength when they fail: limit analysis has their residual strength, "
+                           "the safe side{}",
+                           thrust ? "" : "; analysis.method = \"elastic\" follows their failure"));
+  } else if (seeks_factor(scene.analysis) && is_brittle(model)) {
+    diagnostics.warning(
+        place,
+        "joints that lose strength fail point by point: the factor depends "
+        "on the order and stiffness of blocks by some percent, and is not a bound. Compare "
+        "orders, or give fracture_energy; analysis.method = \"limit\" has the residual strength, "
+        "the safe side");
+  }
+}
+
+}  // namespace
 
 void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model,
                         Diagnostics& diagnostics) {
@@ -182,6 +217,7 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
                       "no block can move (all are fixed or held by supports), one that can is needed");
     return;
   }
+  warn_of_lost_strength(scene, *model, diagnostics);
   if (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit &&
       scene.initial_stress.given())
     diagnostics.warning(scene.places.key("initial_stress"),
@@ -195,6 +231,7 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
 LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
                           const std::function<bool()>& goes_on) {
   LimitFindings findings;
+  findings.has_residual_strength = model.has_residual_strength;
   const JointSelection reduced(scene, scene.analysis.safety.of);
   LimitAnalysis analysis(
       std::move(model),
@@ -266,6 +303,7 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
   const LimitBracket& associated = findings.answer.associated;
   const PathAnswer& path = findings.path.answer;
   Json json = {{"method", "limit"},
+               {"strength", findings.has_residual_strength ? "residual" : "full"},
                {"lower", number(path.lower)},
                {"upper", number(path.upper)},
                {"released", number(released.lower)},

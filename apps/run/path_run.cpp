@@ -46,6 +46,7 @@ PathFindings find_path(const Scene& scene, const Simulation& simulation, const L
   const bool safety = scene.analysis.type == SceneAnalysis::Type::safety;
   RigidModel model = simulation.spring_model(scene.analysis.end_time,
                                              safety ? std::vector<bool>() : multiplied_blocks(scene));
+  if (scene.analysis.method == SceneAnalysis::Method::limit) keep_residual_strength(model);
   PathFindings found;
   std::vector<double> allowed = allowed_displacements(scene, simulation, model);
   found.allowed = *std::min_element(allowed.begin(), allowed.end());

@@ -127,14 +127,18 @@ namespace {
 
 /// Sets force and energies of the normal spring and its dashpot at the end of a step. @param gap over the rest gap
 void set_normal(const PointLaw& law, double gap, double normal, bool open, PointResponse& response) {
+  const bool yields = law.yields() && normal < -law.tension;
   if (!open) {
     response.force[0] = std::max(normal, -law.tension);
-    response.tangent(0, 0) = normal_resistance(law);
+    response.tangent(0, 0) = yields ? 0.0 : normal_resistance(law);
   }
   const bool damps = law.dashpots.normal > 0.0;
   const bool strained = damps ? gap < 0.0 || (law.tension > 0.0 && !open) : response.force[0] != 0.0;
   if (law.augmented || !strained) return;
-  response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
+  // The potential of a force that yields goes on linearly.
+  const double elastic = yields ? law.tension / law.normal_stiffness : gap;
+  response.normal_energy =
+      0.5 * law.normal_stiffness * elastic * elastic + (yields ? law.tension * (gap - elastic) : 0.0);
   if (damps) response.damped += taken_by_normal(law, -law.normal_stiffness * gap, response.force[0], gap);
 }
 
@@ -168,7 +172,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
     });
     normal += lift * slid;
   }
-  const bool open = normal < -(law.tension + normal_resistance(law) * law.rounding);
+  const bool open = !law.yields() && normal < -(law.tension + normal_resistance(law) * law.rounding);
   if (!open) response.dilation = dilation.tangent * slid;
   set_normal(law, gap - response.dilation, normal, open, response);
   if (open && law.held_limit <= 0.0 && !law.bridged) return response;
@@ -253,10 +257,6 @@ ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap,
   return end_open ? ClosedShare{-start_gap / difference, start_gap / (difference * difference)}
                   : ClosedShare{end_gap / difference, -start_gap / (difference * difference)};
 }
-
-}  // namespace
-
-namespace {
 
 /// Normal force over a step with a given gap at its end, and the bound of the shear force.
 struct MeanNormal {

@@ -17,6 +17,9 @@
 // strength equal to the strength is a perfectly plastic one, which never fails. Without cohesion there is no
 // resistance to sliding under tension.
 //
+// In statics residual tensile strength yields: N = -T A beyond the gap T A / kn, at any gap (notes/plastic_tension.md).
+// In motion such a point opens, and bonds again when it closes.
+//
 // With multipliers (augmented contact) N = lambda_n - kn g and the trial shear force is lambda_s - ks s. If the
 // forces equal the multipliers, N > 0 implies g = 0, a locked point has s = 0 and the force of a sliding one is along
 // -s: rigid contact. The springs serve for convergence only, so that they hold no energy.
@@ -123,8 +126,11 @@ struct PointLaw {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Dilation dilation = {};
   Dashpots dashpots = {};
-  BondDamage bond = {};  ///< of a joint with fracture energy
+  BondDamage bond = {};    ///< of a joint with fracture energy
+  bool is_static = false;  ///< tensile strength that cannot fail yields instead of opening
 
+  /// True if tension is bounded by a plateau of the normal force.
+  [[nodiscard]] bool yields() const { return is_static && tension > 0.0 && tension <= residual[2]; }
   /// True if its strength can fail.
   [[nodiscard]] bool weakens() const {
     return friction > residual[0] || cohesion > residual[1] || tension > residual[2];

@@ -133,6 +133,7 @@ void ContactPair::count_slip(const std::vector<Vector3>& moved) {
     if (!memory.in_level) memory.level_slip = -flat(k, along(moved[k]));
     rests_[k] = memory.level_dilation;
     laws_[k].set_damage(memory.level_damage);
+    laws_[k].is_static = true;
     start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - rests_[k];
     start_.col(static_cast<Eigen::Index>(k)).tail<2>() = along(memory.level_slip + moved[k]);
   }

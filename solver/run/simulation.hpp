@@ -129,6 +129,8 @@ class Simulation {
   [[nodiscard]] StaticStatus static_step(double end_time);
   /// The same, with an early stop as moving once a block is certain to go so far. @param far in block sizes, > 0
   [[nodiscard]] StaticStatus static_step(double end_time, double far);
+  /// True if a static analysis has ended with the equilibrium of rigid blocks (rigid_verdict.hpp).
+  [[nodiscard]] bool rests_rigidly() const { return state_.statics.rests_rigidly; }
   /// The blocks at their present positions as rigid bodies, for limit analysis; of one rank that has all of them.
   /// @param end_time of the loads, s
   /// @param multiplied by block: true if its loads are multiplied by a factor; empty: none

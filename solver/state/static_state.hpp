@@ -43,6 +43,8 @@ struct StaticState {
   int multiplier_iterations = 0;  ///< in equilibrium whose multipliers had not converged
   bool balanced = false;          ///< equilibrium at the present loads
   bool moving = false;
+  /// True if the equilibrium is that of rigid blocks along a load path, where the iteration did not decide
+  bool rests_rigidly = false;
   std::vector<Eigen::MatrixX3d>
       level_start;  ///< by block, positions at the start of the load level; empty before
   StaticProgress progress;

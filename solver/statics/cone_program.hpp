@@ -20,6 +20,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -40,7 +41,16 @@ struct ConeStrength {
   double cohesion = 0.0;  ///< c, >= 0
   double tension = 0.0;   ///< T, >= 0; infinite, without friction only: no bound
   double compression = std::numeric_limits<double>::infinity();  ///< M, >= 0 and > -T; infinite: no bound
+  /// True: c + mu max(N, 0) resists shear, which is not convex: for elastic joints and motion from rest only.
+  bool keeps_cohesion = false;
 
+  /// Bound of |t|, >= 0, and its derivative by N.
+  [[nodiscard]] double shear_bound(double normal) const {
+    return std::max(0.0, cohesion + friction * (keeps_cohesion ? std::max(normal, 0.0) : normal));
+  }
+  [[nodiscard]] double shear_slope(double normal) const {
+    return shear_bound(normal) > 0.0 && !(keeps_cohesion && normal < 0.0) ? friction : 0.0;
+  }
   /// True if it resists shear.
   [[nodiscard]] bool shear() const { return friction > 0.0 || cohesion > 0.0; }
   /// True if tension has a bound of its own, below c/mu, where the cone of shear ends.

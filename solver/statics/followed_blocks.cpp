@@ -31,6 +31,7 @@ BlockSystem dry_system(const BlockSystem& system, double reach) {
         JointLaw law = system.law(a, b);
         law.cohesion = 0.0;
         law.tensile_strength = 0.0;
+        if (law.residual) law.friction = law.residual->friction;
         return law;
       },
       settings, ties, system.absent());

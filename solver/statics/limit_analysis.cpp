@@ -25,18 +25,21 @@ double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocit
 LimitAnalysis::LimitAnalysis(RigidModel model, std::vector<bool> reduced, int threads)
     : model_(std::move(model)),
       reduced_(std::move(reduced)),
+      pulled_(model_),
       bound_(program_of(model_, threads, FrictionAt::uniform_pressure)),
       program_(program_of(model_, threads)) {}
 
 LimitAnalysis::LimitAnalysis(RigidModel model, const Chosen& reduced, int threads)
     : model_(std::move(model)),
       reduced_(reduced_points(model_, reduced)),
+      pulled_(model_),
       bound_(program_of(model_, threads, FrictionAt::uniform_pressure)),
       program_(program_of(model_, threads)) {}
 
-void LimitAnalysis::set_factors(const LimitFactors& factors) {
+void LimitAnalysis::set_factors(const LimitFactors& factors, std::optional<JointUse> use) {
   for (std::size_t k = 0; k < model_.points.size(); ++k) {
-    const ConeStrength strength = strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0);
+    const ConeStrength strength = strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0,
+                                              use.value_or(pulled_.use_of(k)));
     bound_.set_strength(k, strength);
     program_.set_strength(k, strength);
   }
@@ -69,7 +72,7 @@ double LimitAnalysis::estimate(const LimitTrial& trial) const {
   return dissipated > 0.0 && power > dissipated ? trial.factors.strength * dissipated / power : 0.0;
 }
 
-LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
+LimitTrial LimitAnalysis::balanced(const LimitFactors& factors) {
   set_factors(factors);
   LimitTrial trial = balanced_by(bound_, factors);
   if (trial.outcome != LimitOutcome::stands) return trial;
@@ -77,6 +80,31 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   in_corners.programmes += trial.programmes;
   in_corners.iterations += trial.iterations;
   return in_corners;
+}
+
+LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
+  LimitTrial trial = balanced(factors);
+  if (pulled_.empty() || trial.outcome == LimitOutcome::stands) return trial;
+  set_factors(factors, JointUse::either);
+  const LimitTrial either = balanced_by(bound_, factors);
+  trial.programmes += either.programmes;
+  trial.iterations += either.iterations;
+  const PulledJoints before = pulled_;
+  if (either.outcome == LimitOutcome::stands && choose_uses(factors, either.force)) {
+    LimitTrial again = balanced(factors);
+    again.programmes += trial.programmes;
+    again.iterations += trial.iterations;
+    if (again.outcome == LimitOutcome::stands) return again;
+    pulled_ = before;
+  }
+  set_factors(factors);
+  return trial;
+}
+
+bool LimitAnalysis::choose_uses(const LimitFactors& factors, const std::vector<Eigen::Vector3d>& force) {
+  std::vector<double> by_point;
+  for (const bool reduced : reduced_) by_point.push_back(reduced ? factors.strength : 1.0);
+  return pulled_.choose(model_, force, by_point);
 }
 
 LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& factors) const {
@@ -187,19 +215,31 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
   return trial;
 }
 
-double LimitAnalysis::most_that_stands(double most) {
+double LimitAnalysis::most_balanced(const ConeQuestion& question) {
   set_factors({});
-  ConeQuestion asked;
-  asked.load = load(0.0);
-  asked.grows = model_.multiplied;
-  asked.most = most;
-  double stands = most;
+  double stands = question.most;
   for (ConeProgram* program : {&bound_, &program_}) {
-    const ConeAnswer found = program->solve(asked);
+    const ConeAnswer found = program->solve(question);
     if (found.status != ConeStatus::solved || !(found.residual < still)) return 0.0;
     stands = std::min(stands, found.factor);
   }
   return stands;
+}
+
+double LimitAnalysis::most_that_stands(double most) {
+  ConeQuestion asked;
+  asked.load = load(0.0);
+  asked.grows = model_.multiplied;
+  asked.most = most;
+  const double stands = most_balanced(asked);
+  if (pulled_.empty() || stands >= most) return stands;
+  set_factors({}, JointUse::either);
+  const ConeAnswer either = bound_.solve(asked);
+  const PulledJoints before = pulled_;
+  if (either.status != ConeStatus::solved || !choose_uses({}, either.force)) return stands;
+  const double again = most_balanced(asked);
+  if (again < stands) pulled_ = before;
+  return std::max(stands, again);
 }
 
 std::vector<int> LimitAnalysis::moving_alone(const LimitFactors& factors, double tolerance) {

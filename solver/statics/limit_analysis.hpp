@@ -18,6 +18,7 @@
 
 #include "solver/statics/limit_motion.hpp"
 #include "solver/statics/limit_trial.hpp"
+#include "solver/statics/pulled_joints.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/single_bodies.hpp"
 
@@ -74,7 +75,12 @@ class LimitAnalysis {
   [[nodiscard]] LimitMotion motion_of(const LimitTrial& trial);
 
  private:
-  void set_factors(const LimitFactors& factors);
+  /// @param use of joints with tensile strength; empty: as chosen for the last trial that stands
+  void set_factors(const LimitFactors& factors, std::optional<JointUse> use = std::nullopt);
+  [[nodiscard]] LimitTrial balanced(const LimitFactors& factors);
+  /// Chooses the use of joints by forces within all of them. @return true if it has changed
+  bool choose_uses(const LimitFactors& factors, const std::vector<Eigen::Vector3d>& force);
+  [[nodiscard]] double most_balanced(const ConeQuestion& question);
   [[nodiscard]] std::vector<BodyVelocity> load(double factor) const;
   [[nodiscard]] LimitTrial balanced_by(ConeProgram& program, const LimitFactors& factors) const;
   [[nodiscard]] std::vector<double> dilation() const;
@@ -84,6 +90,7 @@ class LimitAnalysis {
 
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point
+  PulledJoints pulled_;
   ConeProgram bound_;  ///< with the twisting resistance of uniform pressure: what stands must stand here too
   ConeProgram program_;                 ///< with forces in the corners
   std::optional<SingleBodies> single_;  ///< computed at the first use

@@ -21,7 +21,7 @@ constexpr int most_path_steps = 300, most_newton_steps = 1000;
 /// Relative to the largest load: the inertia of motion that has no acceleration.
 constexpr double slow_motion = 1e-4;
 /// Relative to the largest force of a joint: it transmits force.
-constexpr double transmits = 1e-6;
+constexpr double transmits = 1e-2;
 
 std::vector<JointSpring> springs_of(const RigidModel& model) {
   std::vector<JointSpring> points;
@@ -128,20 +128,23 @@ PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
 
 std::vector<PairKey> LoadPath::yielding_joints(const PathState& rest, const PathTrial& trial) const {
   struct Joint {
-    bool closed = false, sticks = false;
+    double force = 0.0;
+    bool sticks = false;
   };
-  double largest = 0.0;
-  for (const Eigen::Vector3d& force : rest.force) largest = std::max(largest, force.norm());
   std::map<PairKey, Joint> joints;
+  double largest = 0.0;
   for (std::size_t k = 0; k < model_.points.size(); ++k) {
     if (model_.points[k].bar) continue;
     Joint& joint = joints[key_of(model_.points[k].blocks)];
-    joint.closed = joint.closed || rest.force[k].norm() > transmits * largest;
-    joint.sticks = joint.sticks || trial.states[k] == SpringState::sticks;
+    joint.force += rest.force[k].norm();
+    largest = std::max(largest, joint.force);
+    // A joint without any shear strength slides from the start.
+    const bool slides = trial.states[k] == SpringState::slides && program_.points()[k].strength.shear();
+    joint.sticks = joint.sticks || (trial.states[k] != SpringState::open && !slides);
   }
   std::vector<PairKey> yielding;
   for (const auto& [blocks, joint] : joints)
-    if (joint.closed && !joint.sticks) yielding.push_back(blocks);
+    if (joint.force > transmits * largest && !joint.sticks) yielding.push_back(blocks);
   return yielding;
 }
 

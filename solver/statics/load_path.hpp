@@ -50,7 +50,8 @@ class LoadPath {
   /// From one state to rest under other factors, or to motion.
   [[nodiscard]] PathTrial to(const PathState& start, const LimitFactors& factors);
 
-  /// Pairs of blocks of whose joint at least one point transmits force at `rest` and no point sticks in `trial`.
+  /// Pairs of blocks whose joint transmits at least a hundredth of the largest force of a joint at `rest`, and slides or
+  /// opens at all its points in `trial`.
   [[nodiscard]] std::vector<PairKey> yielding_joints(const PathState& rest, const PathTrial& trial) const;
 
   /// The motion of a trial that moves, as a trial of limit analysis of this model: its accelerations from the forces at

@@ -91,7 +91,7 @@ class Sweeps {
     Vector3d next;
     next[0] = std::max(-strength.tension, force[0] - p.normal_step * opening);
     next[0] = std::min(strength.compression, next[0]);
-    const double bound = std::max(0.0, strength.cohesion + strength.friction * next[0]);
+    const double bound = strength.shear_bound(next[0]);
     next.tail<2>() = force.tail<2>() - p.tangent_step * velocity.tail<2>();
     const double shear = next.tail<2>().norm();
     if (shear > bound) next.tail<2>() *= bound / shear;

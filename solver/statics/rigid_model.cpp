@@ -223,16 +223,25 @@ std::vector<bool> reduced_points(const RigidModel& model, const std::function<bo
   return points;
 }
 
-ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor) {
+ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor, JointUse use) {
   if (point.bar) {
     const double unit = model.units.force();
     return {0.0, point.bar->shear / unit, point.bar->tension / unit, point.bar->compression / unit};
   }
-  const double friction = point.law.friction / factor;
+  double friction = point.law.friction / factor;
+  if (use == JointUse::pulled && point.law.tensile_strength > 0.0)
+    friction = std::min(friction, point.law.cohesion / point.law.tensile_strength);
   if (point.area == 0.0) return {friction, 0.0, 0.0};
   const double cohesion = point.law.cohesion * point.area / factor / model.units.force();
   const double tension = point.law.tensile_strength * point.area / factor / model.units.force();
-  return {friction, cohesion, friction > 0.0 ? std::min(tension, cohesion / friction) : tension};
+  if (point.spring.normal > 0.0) {
+    ConeStrength strength{friction, cohesion, tension};
+    strength.keeps_cohesion = true;
+    return strength;
+  }
+  if (use == JointUse::either) return {friction, std::max(cohesion, friction * tension), tension};
+  const bool has_tip = use == JointUse::pressed && friction > 0.0;
+  return {friction, cohesion, has_tip ? std::min(tension, cohesion / friction) : tension};
 }
 
 std::vector<ConePoint> cone_points(const RigidModel& model, FrictionAt friction) {
@@ -281,8 +290,9 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
     const double shear = force[k].tail<2>().norm();
     const double limit =
         strength.friction * std::max(force[k][0], 0.0) + strength.cohesion * model.units.force();
+    const bool slides = shear > bears * largest && shear >= at_limit * limit;
     response.state = force[k].norm() <= bears * largest ? ContactState::open
-                     : shear >= at_limit * limit        ? ContactState::sliding
+                     : slides                           ? ContactState::sliding
                                                         : ContactState::locked;
     if (response.state == ContactState::open) response.force.setZero();
     record.points.push_back(point.contact);
@@ -303,6 +313,34 @@ bool loses_strength(const RigidModel& model) {
   return std::any_of(model.points.begin(), model.points.end(), [](const RigidPoint& point) {
     return !point.bar && point_law(point.law, 1.0, true).weakens();
   });
+}
+
+void keep_residual_strength(RigidModel& model) {
+  if (!loses_strength(model)) return;
+  model.has_residual_strength = true;
+  std::vector<RigidPoint> points;
+  std::vector<ConePair> pairs;
+  for (ConePair pair : model.pairs) {
+    const std::size_t begin = points.size();
+    for (std::size_t k = pair.begin; k < pair.end; ++k) {
+      RigidPoint& point = model.points[k];
+      JointLaw& law = point.law;
+      if (!point.bar) {
+        const PointLaw failed = point_law(law, 1.0, false);
+        law.friction = failed.friction;
+        law.cohesion = failed.cohesion;
+        law.tensile_strength = failed.tension;
+        law.residual = ResidualStrength{law.friction, law.cohesion, law.tensile_strength};
+        law.fracture = {};
+      }
+      // Parts of overlaps transmit cohesion and tension alone.
+      const bool part = !point.bar && point.area > 0.0 && point.spring.normal == 0.0;
+      if (!part || law.cohesion > 0.0 || law.tensile_strength > 0.0) points.push_back(std::move(point));
+    }
+    if (points.size() > begin) pairs.push_back({pair.bodies, begin, points.size()});
+  }
+  model.points = std::move(points);
+  model.pairs = std::move(pairs);
 }
 
 RigidMotionOf motion_of(const RigidBody& body, const BodyVelocity& coordinates) {

@@ -90,6 +90,7 @@ struct RigidModel {
   RigidUnits units;
   std::vector<BodyVelocity> steady;      ///< loads without factor, gravity included, in units
   std::vector<BodyVelocity> multiplied;  ///< loads with factor, in units
+  bool has_residual_strength = false;    ///< keep_residual_strength() has changed a joint
 };
 
 /// Points of a model.
@@ -122,15 +123,26 @@ enum class FrictionAt { corners, uniform_pressure };
 [[nodiscard]] std::vector<bool> reduced_points(const RigidModel& model,
                                                const std::function<bool(int, int)>& reduced);
 
+/// Convex part of the law of a joint in a programme (pulled_joints.hpp).
+enum class JointUse {
+  pressed,  ///< all friction, tension up to cohesion / friction
+  pulled,   ///< all tensile strength, friction up to cohesion / tension
+  either    ///< a set that contains both, and exceeds the law: not for results
+};
+
 /// Strength of a point, with friction, cohesion and tensile strength of a joint divided by a factor, but not the
-/// strength of a bar. @param factor > 0
-[[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor);
+/// strength of a bar. Springs have the law of joint_law.hpp. @param factor > 0
+[[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor,
+                                       JointUse use = JointUse::pressed);
 
 /// True if any load on a body is multiplied.
 [[nodiscard]] bool multiplies_loads(const RigidModel& model);
 
 /// True if any joint loses strength permanently when it fails, which limit analysis does not represent.
 [[nodiscard]] bool loses_strength(const RigidModel& model);
+
+/// Gives joints that lose strength the strength that they keep: limits are then on the safe side.
+void keep_residual_strength(RigidModel& model);
 
 /// Forces of points as contacts of their pairs of blocks, lower block first. @param force N, by point, in its frame
 [[nodiscard]] std::vector<PairRecord> contact_records(const RigidModel& model,

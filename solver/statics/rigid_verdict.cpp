@@ -1,11 +1,14 @@
 #include "solver/statics/rigid_verdict.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/limit_analysis.hpp"
+#include "solver/statics/load_path.hpp"
 
 namespace ashlar {
 namespace {
@@ -29,14 +32,6 @@ bool can_tell(const BlockSystem& system, const RunState& state, double end_time)
   return std::none_of(system.blocks().begin(), system.blocks().end(), [&](const BlockModel& block) {
     return block.driven() || block.initial_stress() || block.loads_change_between(0.0, end_time);
   });
-}
-
-/// True if neither blocks nor joints have compliance.
-bool is_rigid(const BlockSystem& system, const RigidModel& model) {
-  for (std::size_t k = 0; k < system.blocks().size(); ++k)
-    if (system.moving()[k] && !system.blocks()[k].rigid()) return false;
-  return std::all_of(model.points.begin(), model.points.end(),
-                     [](const RigidPoint& point) { return point.law.rigid; });
 }
 
 void note_motion(const BlockSystem& system, RunState& state, const LimitMotion& motion) {
@@ -88,6 +83,44 @@ StaticStatus verdict_on_level(const BlockSystem& system, RunState& state, Static
   return StaticStatus::moving;
 }
 
+/// Displacements from which on blocks are not at rest where they are placed, by body, m.
+std::vector<double> displacements_of_rest(const BlockSystem& system, const RigidModel& model) {
+  constexpr double share = 0.01;
+  std::vector<double> allowed;
+  for (const RigidBody& body : model.bodies) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int block : body.blocks)
+      least = std::min(least, share * block_size(system.blocks()[at(block)]));
+    allowed.push_back(least);
+  }
+  return allowed;
+}
+
+/// Verdict on an analysis without a result. @param placed blocks at their initial placement
+StaticStatus verdict_of_path(const BlockSystem& system, const RunState& placed, double end_time,
+                             RunState& state) {
+  RigidModel model = rigid_model(system, placed, end_time, {}, RigidPointKind::springs);
+  std::vector<double> allowed = displacements_of_rest(system, model);
+  LoadPath path(
+      std::move(model), [](int, int) { return false; }, std::move(allowed));
+  const PathTrial trial = path.to(path.unloaded(), {});
+  if (trial.outcome == LimitOutcome::moves) {
+    note_motion(system, state, limit_motion(path.model(), path.program(), path.motion_of(trial, {})));
+    return StaticStatus::moving;
+  }
+  if (trial.outcome != LimitOutcome::stands) return StaticStatus::not_converged;
+  for (std::size_t k = 0; k < placed.states.size(); ++k)
+    state.states[k].position = system.blocks()[k].initial_state().position;
+  std::vector<Eigen::Vector3d> forces = trial.end.force;
+  for (Eigen::Vector3d& force : forces) force *= path.model().units.force();
+  state.records = contact_records(path.model(), forces);
+  state.statics.balanced = true;
+  state.statics.moving = false;
+  state.statics.rests_rigidly = true;
+  state.clock = {.start = end_time};
+  return StaticStatus::equilibrium;
+}
+
 }  // namespace
 
 StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double end_time, StaticStatus status) {
@@ -109,19 +142,8 @@ StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double en
     note_motion(system, state, analysis.motion_of(trial));
     return StaticStatus::moving;
   }
-  if (trial.outcome != LimitOutcome::stands || status == StaticStatus::equilibrium ||
-      !is_rigid(system, analysis.model()))
-    return status;
-  // Rigid blocks under forces in balance are in equilibrium at their initial placement.
-  for (std::size_t k = 0; k < placed.states.size(); ++k)
-    state.states[k].position = system.blocks()[k].initial_state().position;
-  std::vector<Eigen::Vector3d> forces = trial.force;
-  for (Eigen::Vector3d& force : forces) force *= analysis.model().units.force();
-  state.records = contact_records(analysis.model(), forces);
-  state.statics.balanced = true;
-  state.statics.moving = false;
-  state.clock = {.start = end_time};
-  return StaticStatus::equilibrium;
+  if (status == StaticStatus::equilibrium) return status;
+  return verdict_of_path(system, placed, end_time, state);
 }
 
 }  // namespace ashlar

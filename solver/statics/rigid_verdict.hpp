@@ -2,6 +2,9 @@
 // result stands or moves. One in equilibrium moves if the equilibrium needs forces that only wedging could have
 // caused.
 //
+// An analysis without a result that no motion from rest decides is decided by the load path (load_path.hpp): rigid blocks
+// on the springs of their joints, loaded slowly from no forces, come to rest or not.
+//
 // It applies if rigid blocks are decisive: joints keep their strength when they slide, loads are constant, no support
 // moves, and neither stress of the ground nor an earlier equilibrium under other loads may have left forces. If loads
 // have changed, it states for an analysis without a result if they are beyond what any forces balance, or at that limit.
@@ -13,7 +16,7 @@
 
 namespace ashlar {
 
-/// Records the motion found by limit analysis for moving_blocks().
+/// Records the motion found by limit analysis for moving_blocks(), or the forces of rigid blocks at rest and their places.
 /// @param status equilibrium or not_converged. @return moving, or the same status
 [[nodiscard]] StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double end_time,
                                          StaticStatus status);

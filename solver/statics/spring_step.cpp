@@ -68,10 +68,9 @@ SpringStep::Response SpringStep::response(std::size_t k, const Vector3d& start, 
   double slope = normal == elastic && spring.normal > 0.0 ? spring.normal : 0.0;
   const Eigen::Vector2d shear = start.tail<2>() - spring.shear * d.tail<2>();
   const double length = shear.norm();
-  const auto bound = [&](double n) { return std::max(0.0, strength.cohesion + strength.friction * n); };
-  double limit = bound(normal);
+  double limit = strength.shear_bound(normal);
   // Derivatives of the limit by N, and of N by the length of t'.
-  double by_normal = limit > 0.0 ? strength.friction : 0.0, by_length = 0.0;
+  double by_normal = strength.shear_slope(normal), by_length = 0.0;
   r.force[0] = normal;
   r.tangent(0, 0) = slope;
   if (length <= limit) {
@@ -89,7 +88,7 @@ SpringStep::Response SpringStep::response(std::size_t k, const Vector3d& start, 
       by_length = wedge * share;
       slope *= share;  // d N / d N' = 1 - friction wedge share
       normal = raised;
-      limit = bound(normal);
+      limit = strength.shear_bound(normal);
       r.force[0] = normal;
       r.tangent(0, 0) = slope;
     }

@@ -8,10 +8,10 @@ namespace ashlar {
 namespace {
 
 // A point fails by opening. Its residual cohesion acts from the next step on if it is closed then: in this step its
-// shear force would jump with each change of state.
+// shear force would jump with each change of state. A point that yields remains closed.
 void open(PointLaw& law) {
   law.fail();
-  law.cohesion = 0.0;
+  if (!law.yields()) law.cohesion = 0.0;
 }
 
 /// Fails points with cohesion that have opened by more than rounding error. @return true if any has failed
@@ -42,7 +42,7 @@ JointFailure::JointFailure(IslandProblem& problem) {
     for (PointLaw& law : laws) {
       strengths_.back().push_back(law.tension);
       // A bond with fracture energy transmits what is left of its strength.
-      if (law.bond.tension > 0.0) continue;
+      if (law.bond.tension > 0.0 || law.yields()) continue;
       if (law.tension > 0.0)
         law.tension = std::numeric_limits<double>::infinity();
       else if (law.cohesion > 0.0)

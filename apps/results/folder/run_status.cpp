@@ -83,6 +83,9 @@ std::string describe_displaced(const Simulation& simulation) {
     names.push_back(fmt::format("block {} by {:.3g} m",
                                 simulation.blocks()[static_cast<std::size_t>(block)].name(), distance));
   }
+  if (simulation.rests_rigidly())
+    return "equilibrium of rigid blocks, loaded slowly: the iteration for blocks that deform did not converge; forces of "
+           "joints are those of rigid blocks on springs, and blocks have no stress";
   return names.empty()
              ? ""
              : fmt::format("equilibrium, but far from where they were placed: {}", first_names(names));

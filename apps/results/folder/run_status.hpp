@@ -36,7 +36,8 @@ inline constexpr double displaced_share = 0.1;
 /// "no equilibrium: " and the same.
 [[nodiscard]] std::string describe_motion(const Simulation& simulation);
 
-/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if there is none.
+/// "equilibrium, but far from where they were placed: block A by 1.2 m", or that only rigid blocks are known to be in
+/// equilibrium; empty for an ordinary one.
 [[nodiscard]] std::string describe_displaced(const Simulation& simulation);
 
 /// "block A", for blocks that penetrate too deep with depth, place and allowed depth.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "unit/apps/run_fixture.hpp"
 
@@ -66,8 +67,54 @@ TEST_F(LimitRun, TheMethodFollowsTheJoints) {
   ASSERT_EQ(run("auto"), 0) << faults_;
   EXPECT_EQ(summary("auto").at("factor_of_safety").at("method"), "elastic");
   EXPECT_FALSE(summary("auto").at("factor_of_safety").contains("limit"));
+  EXPECT_THAT(faults_, AllOf(HasSubstr("warning: joints that lose strength fail point by point"),
+                             HasSubstr("depends on the order")));
   ASSERT_EQ(run("forced", {"--set", "analysis.method=limit"}), 0) << faults_;
   EXPECT_EQ(summary("forced").at("factor_of_safety").at("method"), "limit");
+}
+
+TEST_F(LimitRun, JointsThatLoseStrengthHaveTheirResidual) {
+  // A slab on a plane of 40 degrees with 38 degrees at the peak and 20 after failure: tan 20 / tan 40, and with
+  // residual cohesion c by c A / (W sin 40) more, W = 2000 g, A = 4.
+  const auto scene = [](const std::string& contact) {
+    return "[analysis]\ntype = \"factor-of-safety\"\nmethod = \"limit\"\n"
+           "gravity = [\"= 9.81*sin(40*deg)\", 0, \"= -9.81*cos(40*deg)\"]\n[contact]\n" +
+           contact + R"(
+[[material]]
+name = "stone"
+density = 2000
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "ground"
+fixed = true
+box = { min = [-4, -4, -1], max = [4, 4, 0] }
+[[block]]
+name = "slab"
+material = "stone"
+box = { min = [-1, -1, 0], max = [1, 1, 0.25] }
+)";
+  };
+  const double friction = std::tan(20 * degree) / std::tan(40 * degree);
+  const double cohesion = 4.0 * 500.0 / (2000 * 9.81 * std::sin(40 * degree));
+  const std::string angles = "friction_angle = 38\nfriction_angle_residual = 20";
+  for (const auto& [contact, factor] :
+       {std::pair(angles, friction), std::pair(angles + "\ncohesion = 1e5", friction),
+        std::pair(angles + "\ncohesion = 1e5\ncohesion_residual = 500", friction + cohesion)}) {
+    write_text(scene_, scene(contact));
+    ASSERT_EQ(run("out", {"--force"}), 0) << faults_;
+    EXPECT_THAT(faults_,
+                HasSubstr("s.toml:3:10: warning: joints lose strength when they fail: limit analysis has "
+                          "their residual strength"));
+    const nlohmann::json found = summary("out").at("factor_of_safety");
+    EXPECT_EQ(found.at("strength"), "residual");
+    EXPECT_LE(found.at("lower").get<double>(), factor * 1.001) << contact;
+    EXPECT_GE(found.at("upper").get<double>(), factor * 0.999) << contact;
+    EXPECT_THAT(summary("out").at("message").get<std::string>(), HasSubstr("by the residual strength"));
+  }
+  write_text(scene_, scene("friction_angle = 38"));
+  ASSERT_EQ(run("out", {"--force"}), 0) << faults_;
+  EXPECT_EQ(summary("out").at("factor_of_safety").at("strength"), "full");
 }
 
 TEST_F(LimitRun, StressOfTheGroundIsForStaticAnalyses) {

@@ -70,6 +70,39 @@ TEST(JointLaw, WhatHasFailedHasItsResidualStrength) {
   EXPECT_FALSE(point_law(weak, 0.1, true).weakens());
 }
 
+TEST(JointLaw, TensionThatCannotFailYieldsInStatics) {
+  JointLaw plastic = law;
+  plastic.residual = ResidualStrength{0.5, 3e4, 2e4};
+  PointLaw point = point_law(plastic, 0.1, true);  // T A = 2000 N at kn A = 2e8 N/m: 1e-5 m; c A = 3000 N
+  EXPECT_EQ(point_response(point, 3e-5, {0, 0}).state, ContactState::open);
+  point.is_static = true;
+  EXPECT_TRUE(point.yields());
+  EXPECT_DOUBLE_EQ(point_response(point, 0.5e-5, {0, 0}).force[0], -1000.0);
+  EXPECT_EQ(point_response(point, 0.5e-5, {0, 0}).tangent(0, 0), 2e8);
+  const PointResponse far = point_response(point, 3e-5, {2e-5, 0});
+  EXPECT_EQ(far.state, ContactState::locked);
+  EXPECT_DOUBLE_EQ(far.force[0], -2000.0);
+  EXPECT_NEAR(far.force[1], -2000.0, 1e-9);
+  EXPECT_EQ(far.tangent(0, 0), 0.0);
+  // 2000 N over 1e-5 m, half of it, and over the remaining 2e-5 m.
+  EXPECT_NEAR(far.normal_energy, 0.01 + 0.04, 1e-15);
+  // Shear is bounded by cohesion, as without pressure.
+  EXPECT_NEAR(point_response(point, 3e-5, {5e-5, 0}).force[1], -3000.0, 1e-9);
+  // Strength that can fail does not yield, what is left of it does.
+  plastic.residual->tensile_strength = 1e4;
+  PointLaw weak = point_law(plastic, 0.1, true);
+  weak.is_static = true;
+  EXPECT_FALSE(weak.yields());
+  EXPECT_EQ(point_response(weak, 3e-5, {0, 0}).state, ContactState::open);
+  weak.fail();
+  EXPECT_DOUBLE_EQ(point_response(weak, 3e-5, {0, 0}).force[0], -1000.0);
+  // Without residual strength a failed point opens.
+  PointLaw brittle = point_law(law, 0.1, false);
+  brittle.is_static = true;
+  EXPECT_FALSE(brittle.yields());
+  EXPECT_EQ(point_response(brittle, 1e-6, {0, 0}).state, ContactState::open);
+}
+
 TEST(JointLaw, RoundingDoesNotChooseTheState) {
   JointLaw rounded = law;
   rounded.rounding = 1e-14;
