@@ -8,6 +8,7 @@
 
 #include "apps/run/factor_search.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/statics/least_strength.hpp"
 #include "solver/statics/limit_analysis.hpp"
 #include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/support_movement.hpp"
@@ -15,11 +16,21 @@
 
 namespace ashlar {
 
+/// Compressive strength of joints in an answer.
+struct CrushingFindings {
+  /// With which the lower end stands, if the scene gives no strength; value 0: not found.
+  LeastStrength least;
+  /// With which all loads without a factor are in balance, if that is more than `given`; value 0: not so.
+  LeastStrength needed;
+  double given = 0.0;  ///< Pa, the least one of the scene; infinite: none
+};
+
 /// Result of limit analysis for a scene.
 struct LimitFindings {
   LimitAnswer answer;
   LimitMotion released;    ///< at the smallest factor that moves; empty: none does
   LimitMotion associated;  ///< at the smallest factor above which nothing stands; empty: unknown
+  CrushingFindings crushing;
 };
 
 /// An extreme of the thrust on one support, and its line of thrust.

@@ -43,8 +43,8 @@ class PathSearch {
 
   /// The state at the start of the path. @return false if blocks move before it
   bool begin() {
-    const LimitFactors first = sought_ == Sought::strength ? LimitFactors{LoadPath::nothing_slides, 1.0}
-                                                           : LimitFactors{1.0, 0.0};
+    const LimitFactors first =
+        sought_ == Sought::strength ? LimitFactors{LoadPath::nothing_slides, 1.0} : LimitFactors{1.0, 0.0};
     PathTrial trial = path_.to(path_.unloaded(), first);
     note(0.0, trial);
     if (trial.outcome == LimitOutcome::stands) {
@@ -91,8 +91,7 @@ class PathSearch {
 
   [[nodiscard]] bool is_resolved() const {
     if (unknown_) return false;
-    if (answer_.lower && answer_.upper)
-      return *answer_.upper <= *answer_.lower * (1.0 + search_.tolerance);
+    if (answer_.lower && answer_.upper) return *answer_.upper <= *answer_.lower * (1.0 + search_.tolerance);
     return answer_.lower ? *answer_.lower >= search_.upper : answer_.upper && *answer_.upper <= search_.lower;
   }
 
@@ -101,8 +100,9 @@ class PathSearch {
     const double most = std::min(search_.upper, associated_.lower.value_or(search_.upper));
     if (answer_.upper) {
       if (!answer_.lower)
-        return *answer_.upper > search_.lower ? std::optional(std::max(*answer_.upper / path_stride, search_.lower))
-                                              : std::nullopt;
+        return *answer_.upper > search_.lower
+                   ? std::optional(std::max(*answer_.upper / path_stride, search_.lower))
+                   : std::nullopt;
       if (*answer_.upper <= *answer_.lower * (1.0 + search_.tolerance)) return std::nullopt;
       return std::sqrt(*answer_.lower * *answer_.upper);
     }
@@ -135,7 +135,8 @@ class PathSearch {
     }
     const double accuracy = std::max(onset_accuracy, search_.tolerance);
     while (after != rest_.end() && high > low * (1.0 + accuracy) && goes_on_()) {
-      const double middle = low > 0.0 ? std::sqrt(low * high) : std::max(0.5 * high, std::min(search_.lower, 0.9 * high));
+      const double middle =
+          low > 0.0 ? std::sqrt(low * high) : std::max(0.5 * high, std::min(search_.lower, 0.9 * high));
       PathTrial trial = path_.to(before.end, factors(middle));
       if (trial.outcome == LimitOutcome::stands && yields(trial).empty()) {
         low = middle;
@@ -163,8 +164,8 @@ class PathSearch {
 
 }  // namespace
 
-PathAnswer search_path(LoadPath& path, Sought sought, const LimitSearch& search, const LimitBracket& associated,
-                       const std::function<bool()>& goes_on) {
+PathAnswer search_path(LoadPath& path, Sought sought, const LimitSearch& search,
+                       const LimitBracket& associated, const std::function<bool()>& goes_on) {
   return PathSearch(path, sought, search, associated, goes_on).run();
 }
 

@@ -75,8 +75,7 @@ SpringStep::Response SpringStep::response(std::size_t k, const Vector3d& start, 
   if (length <= limit) {
     r.force.tail<2>() = shear;
     r.tangent(1, 1) = r.tangent(2, 2) = spring.shear;
-    if (elastic <= -strength.tension && strength.tension == 0.0 && length == 0.0)
-      r.state = SpringState::open;
+    if (elastic <= -strength.tension && strength.tension == 0.0 && length == 0.0) r.state = SpringState::open;
     return r;
   }
   r.state = limit > 0.0 || normal > 0.0 ? SpringState::slides : SpringState::open;
@@ -103,9 +102,9 @@ SpringStep::Response SpringStep::response(std::size_t k, const Vector3d& start, 
   return r;
 }
 
-Eigen::VectorXd SpringStep::residual(const std::vector<Vector3d>& start, const std::vector<BodyVelocity>& load,
-                                     double inertia, SpringSolution& at_end,
-                                     std::vector<Matrix3d>& tangents) const {
+Eigen::VectorXd SpringStep::residual(const std::vector<Vector3d>& start,
+                                     const std::vector<BodyVelocity>& load, double inertia,
+                                     SpringSolution& at_end, std::vector<Matrix3d>& tangents) const {
   Eigen::VectorXd sum(offsets_.back());
   const auto segment = [&](int body) { return sum.segment(offsets_[at(body)], program_.freedom(at(body))); };
   for (std::size_t b = 0; b < load.size(); ++b) {
