@@ -64,4 +64,11 @@ struct Answer {
   [[nodiscard]] bool drawn_only() const { return (limits && !bracket) || thrust; }
 };
 
+/// Lists all members, for messages: inlined, gcc takes an empty bracket for one that is not initialised.
+template <class Archive>
+[[gnu::noinline]] void visit_members(Archive& archive, Answer& answer) {
+  auto& [bracket, limits, thrust, drawn] = answer;
+  archive(bracket, limits, thrust, drawn);
+}
+
 }  // namespace ashlar

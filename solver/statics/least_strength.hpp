@@ -1,10 +1,9 @@
 // Compressive strength that a structure of rigid blocks needs.
 //
-// With pressure at centroids of parts of joints (crushing_joints.hpp) of areas A_k, the least f is sought for which
-// forces p within N_k <= f A_k and the other strengths balance the loads F. With q = p / f that is a limit load:
-//     max a:   a F + G'q = 0,   N_k <= A_k,   |t| <= c / f + mu N,   -T / f <= N                             (least)
-// and f = 1 / a. Without cohesion, tensile strength and bars, f is in the answer only. With them (least) maps f to a
-// smaller f' as long as f is more than needed, and never below what is needed.
+// Strengths of all joints are tried, as factors are (limit_analysis.hpp): with pressure at centroids of parts of joints
+// (crushing_joints.hpp) they stand, with pressure at corners of parts they move, and parts are divided between. The
+// motion of a strength that is too small has a power of the loads, which bounds the strength from below. The result
+// stands by forces at centroids.
 #pragma once
 
 #include <optional>
