@@ -14,12 +14,12 @@ namespace ashlar {
 namespace {
 
 /// Relative width of the bracket of a strength.
-constexpr double enough = 0.02;
-constexpr int most_divisions = 25, most_trials = 40;
+constexpr double strength_width = 0.02;
+constexpr int most_divisions = 25, most_strength_trials = 40;
 /// Motion relative to that by the loads alone that counts as rest.
-constexpr double resting = 1e-5;
+constexpr double strength_rest = 1e-5;
 /// Range of the search, in mean pressures of joints, and its ratio while it has one end.
-constexpr double least_pressure = 1e-3, most_pressure = 1e5, stride = 20.0;
+constexpr double least_pressure = 1e-3, most_pressure = 1e5, strength_stride = 20.0;
 
 /// Trials of strengths of all joints.
 class StrengthTrials {
@@ -78,8 +78,8 @@ class StrengthTrials {
   }
 
   [[nodiscard]] bool moves(const ConeAnswer& found) const {
-    return !(found.residual < resting) ||
-           largest_motion(found.velocity, load_, loaded_bodies(model_)) > resting;
+    return !(found.residual < strength_rest) ||
+           largest_motion(found.velocity, load_, loaded_bodies(model_)) > strength_rest;
   }
 
   bool stand(FrictionAt friction, double strength) {
@@ -136,19 +136,19 @@ std::optional<LeastStrength> least_strength(const RigidModel& model, const std::
   StrengthTrials trials(model, reduced, factors, threads);
   if (!(trials.unit() > 0.0)) return std::nullopt;
   double low = 0.0, high = 0.0, next = 1.0;
-  for (int n = 0; n < most_trials; ++n) {
+  for (int n = 0; n < most_strength_trials; ++n) {
     (trials.stand(next) ? high : low) = next;
-    if (high > 0.0 && (high <= least_pressure || (low > 0.0 && high <= low * (1.0 + enough)))) break;
+    if (high > 0.0 && (high <= least_pressure || (low > 0.0 && high <= low * (1.0 + strength_width)))) break;
     if (high == 0.0 && low >= most_pressure) return std::nullopt;
     if (low == 0.0) {
-      next = high / stride;
+      next = high / strength_stride;
       continue;
     }
     // The mechanism of a weaker joint bounds the strength from below.
-    const double above = trials.estimate() * (1.0 + 0.5 * enough);
-    const double middle = high > 0.0 ? std::sqrt(low * high) : low * stride;
-    const bool helps = above > low && (high == 0.0 || above < high / (1.0 + 0.25 * enough));
-    next = helps && n % 3 != 2 ? std::min(above, low * stride) : middle;
+    const double above = trials.estimate() * (1.0 + 0.5 * strength_width);
+    const double middle = high > 0.0 ? std::sqrt(low * high) : low * strength_stride;
+    const bool helps = above > low && (high == 0.0 || above < high / (1.0 + 0.25 * strength_width));
+    next = helps && n % 3 != 2 ? std::min(above, low * strength_stride) : middle;
   }
   if (high == 0.0) return std::nullopt;
   return LeastStrength{high * trials.unit(), trials.joint()};
