@@ -8,6 +8,7 @@
 
 #include "apps/run/factor_search.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/statics/least_strength.hpp"
 #include "solver/statics/limit_analysis.hpp"
 #include "solver/statics/path_search.hpp"
 #include "solver/statics/rigid_bolts.hpp"
@@ -23,6 +24,15 @@ struct PathFindings {
   double allowed = 0.0;  ///< m, the least allowed displacement of any block
 };
 
+/// Compressive strength of joints in an answer.
+struct CrushingFindings {
+  /// With which the lower end stands, if the scene gives no strength; value 0: not found.
+  LeastStrength least;
+  /// With which all loads without a factor are in balance, if that is more than `given`; value 0: not so.
+  LeastStrength needed;
+  double given = 0.0;  ///< Pa, the least one of the scene; infinite: none
+};
+
 /// Result of limit analysis for a scene.
 struct LimitFindings {
   LimitAnswer answer;
@@ -30,6 +40,7 @@ struct LimitFindings {
   LimitMotion released;                ///< at the smallest factor that moves; empty: none does
   LimitMotion associated;              ///< at the smallest factor above which nothing stands; empty: unknown
   bool has_residual_strength = false;  ///< of joints that lose strength, instead of their strength
+  CrushingFindings crushing;
 };
 
 /// An extreme of the thrust on one support, and its line of thrust.
@@ -62,5 +73,12 @@ struct Answer {
   /// True if only the onset of motion is drawn, without an analysis of it.
   [[nodiscard]] bool drawn_only() const { return (limits && !bracket) || thrust; }
 };
+
+/// Lists all members, for messages: inlined, gcc takes an empty bracket for one that is not initialised.
+template <class Archive>
+[[gnu::noinline]] void visit_members(Archive& archive, Answer& answer) {
+  auto& [bracket, limits, thrust, drawn] = answer;
+  archive(bracket, limits, thrust, drawn);
+}
 
 }  // namespace ashlar

@@ -27,7 +27,8 @@ std::string rigid_difference(const Answer& answer) {
   const double elastic = *answer.bracket->lower, rigid = *answer.limits->path.answer.lower;
   if (elastic <= alike * rigid && rigid <= alike * elastic) return "";
   return fmt::format(
-      "; rigid blocks on the same path stand up to {:.5g}: friction has several equilibria here, and the forces that "
+      "; rigid blocks on the same path stand up to {:.5g}: friction has several equilibria here, and the "
+      "forces that "
       "joints have at rest decide; the smaller factor is safe for both",
       rigid);
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "apps/run/block_name.hpp"
+#include "apps/run/crushing_run.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/path_run.hpp"
 #include "apps/scene/build/joint_selection.hpp"
@@ -123,6 +124,8 @@ std::string remarks(const LimitFindings& findings, const Simulation& simulation)
   if (!kept.empty())
     text += fmt::format("; {} would move below it but for the pressure of other blocks",
                         names_of(simulation, kept));
+  if (const std::string crushed = crushing_in_words(findings.crushing, simulation); !crushed.empty())
+    text += "; " + crushed;
   return text;
 }
 
@@ -205,6 +208,7 @@ void warn_of_lost_strength(const Scene& scene, const RigidModel& model, Diagnost
 void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model,
                         Diagnostics& diagnostics) {
   const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
+  refuse_idle_crushing(scene, model, diagnostics);
   if (!model) {
     if (thrust || (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit))
       diagnostics.error(
@@ -265,6 +269,8 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation
     findings.released.bars = bar_forces(analysis.model(), stands.force);
   }
   findings.answer.interrupted = findings.answer.interrupted || findings.path.answer.interrupted;
+  if (!findings.answer.interrupted)
+    findings.crushing = find_crushing(analysis, findings.path.answer.lower, scene.analysis, threads);
   return findings;
 }
 
@@ -313,6 +319,7 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
   add_motion(json, signed_motion(findings), simulation);
   if (!findings.released.bars.empty()) json["bolts"] = bars_json(findings.released.bars, simulation);
   json["kept_by_others"] = names_in_json(findings.answer.kept_by_others, simulation);
+  json["least_strength"] = least_strength_json(findings.crushing, simulation);
   json["associated_bracket"] = {number(associated.lower), number(associated.upper)};
   json["associated_motion"] = Json::object();
   add_motion(json["associated_motion"], findings.associated, simulation);

@@ -320,8 +320,7 @@ void Run::end_stage(RunStatus status, std::string message) {
     }
   }
   if (answer_.bracket) {
-    AnsweredEnd end =
-        bracket_end(answer_, scene().analysis, simulation(), {stage_status_, message_});
+    AnsweredEnd end = bracket_end(answer_, scene().analysis, simulation(), {stage_status_, message_});
     stage_status_ = end.status;
     message_ = std::move(end.message);
   }

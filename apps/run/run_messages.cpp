@@ -11,6 +11,7 @@
 
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_summary.hpp"
+#include "apps/run/crushing_run.hpp"
 #include "apps/scene/build/initial_state.hpp"
 
 namespace ashlar {
@@ -116,6 +117,14 @@ void warn_of_order(const Run& run, std::ostream& err) {
       100.0 * coarse->relative(), block.name(), block.order());
 }
 
+/// Warns of a factor that needs strong joints.
+void warn_of_strength(const Run& run, std::ostream& err) {
+  const std::optional<LimitFindings>& limits = run.answer().limits;
+  if (!limits || run.answer().bracket) return;
+  const std::string warning = strength_warning(limits->crushing, run.simulation());
+  if (!warning.empty()) err << fmt::format("ashlar: warning: {}\n", warning);
+}
+
 /// Prints how a run ended; nothing for a completed one. @param quiet only errors and interrupts
 void tell_end(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   const std::string& message = run.message();
@@ -168,6 +177,7 @@ void tell_results(const Run& run, const std::filesystem::path& folder, bool quie
   warn_of_friction(simulation, err);
   warn_of_hops(simulation, err);
   warn_of_order(run, err);
+  warn_of_strength(run, err);
 }
 
 }  // namespace ashlar

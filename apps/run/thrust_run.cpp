@@ -68,6 +68,7 @@ std::string drawn_line(const ThrustLine& line, const Simulation& simulation, con
 ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
                            const std::function<bool()>& goes_on) {
   ThrustFindings findings;
+  divide_for_thrust(model, scene.analysis.gravity, threads);
   for (const ThrustRange& range : thrust_ranges(model, scene.analysis.gravity, threads)) {
     SupportThrust support{range.support, line_of(model, *range.least), std::nullopt};
     if (range.most) support.most = line_of(model, *range.most);

@@ -41,6 +41,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <optional>
 
 #include "mechanics/contact/bond_damage.hpp"
@@ -85,6 +86,8 @@ struct JointLaw {
   /// Normal velocity after an impact over that before, 0 to 1 (solver/step/restitution.hpp). Empty: as springs,
   /// dashpots or multipliers have it
   std::optional<double> restitution = std::nullopt;
+  /// Pa, > 0: plastic cap of normal pressure, of limit analysis only (solver/statics/crushing_joints.hpp)
+  double compressive_strength = std::numeric_limits<double>::infinity();
 
   friend bool operator==(const JointLaw&, const JointLaw&) = default;
 };

@@ -193,13 +193,15 @@ void ConeIteration::direction(double centring, bool corrected) {
     // Without friction one of the bounds of N takes its dual from G dv: the nearer one.
     const bool crushed =
         s.crushes() && s.friction == 0.0 && (!s.cut_off() || crushing_w2(points_[k]) > scalar_w2(points_[k]));
-    if (s.crushes()) d.dxm = d.lack_xm - d.dp[0];
-    if (s.cut_off()) {
-      d.dxc = d.lack_xc + d.dp[0];
-      if (s.crushes() && !crushed) {
+    if (s.crushes()) {
+      d.dxm = d.lack_xm - d.dp[0];
+      if (!crushed) {
         d.dzm = d.qm - crushing_w2(points_[k]) * d.dxm;
         dual[0] += d.dzm;
       }
+    }
+    if (s.cut_off()) {
+      d.dxc = d.lack_xc + d.dp[0];
       d.dzc = s.friction > 0.0 || crushed ? d.qc - scalar_w2(points_[k]) * d.dxc : dual[0];
       dual[0] -= d.dzc;
     }

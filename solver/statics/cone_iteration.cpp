@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int most_iterations = 120;
+/// Iterations in a row without progress that end it.
+constexpr int most_stuck_crushing = 20, most_stuck_else = 5;
 constexpr double to_the_boundary = 0.98;
 /// For `rest`, relative to the square of the loads: the error of v is its square root.
 constexpr double gap_of_rest = 1e-12;
@@ -46,6 +48,11 @@ ConeIteration::ConeIteration(ConeProgram& program, const ConeQuestion& question)
 ConeAnswer ConeIteration::run() {
   ConeAnswer answer;
   double before = std::numeric_limits<double>::infinity();
+  // Joints that crush are far from the centre at first.
+  const bool crush =
+      std::any_of(program_.points_.begin(), program_.points_.end(),
+                  [](const ConePoint& point) { return point.strength.shear() && point.strength.crushes(); });
+  const int most_stuck = crush ? most_stuck_crushing : most_stuck_else;
   int stuck = 0;
   double length = 1.0;
   for (answer.iterations = 0; answer.iterations < most_iterations; ++answer.iterations) {
@@ -59,7 +66,7 @@ ConeAnswer ConeIteration::run() {
     if (!std::isfinite(measure)) break;
     if (measure <= before) keep();
     before = std::min(before, measure);
-    if (stuck >= 5) break;
+    if (stuck >= most_stuck) break;
     if (!factorize()) break;
     direction(0.0);
     const double ahead = this->length(1.0);
@@ -121,7 +128,7 @@ void ConeIteration::start() {
       i.xc = force + s.tension;
       i.zc = velocity;
     }
-    if (s.crushes() || !std::isfinite(s.tension)) start_bar(s, i);
+    if (s.crushes() || !std::isfinite(s.tension)) start_bounded(s, i);
     bounds_ +=
         static_cast<double>(s.shear()) + static_cast<double>(s.cut_off()) + static_cast<double>(s.crushes());
   }
@@ -132,12 +139,16 @@ void ConeIteration::start() {
   }
 }
 
-void ConeIteration::start_bar(const ConeStrength& s, PointIterate& i) const {
+void ConeIteration::start_bounded(const ConeStrength& s, PointIterate& i) const {
   const double force = load_scale_;
-  i.p[0] = s.cut_off() && s.crushes() ? 0.5 * (s.compression - s.tension)
-           : s.crushes()              ? s.compression - force
-           : s.cut_off()              ? force - s.tension
-                                      : 0.0;
+  // A joint that crushes is far stronger than its force, or not.
+  const bool joint = s.shear() && std::isfinite(s.tension) && s.crushes();
+  i.p[0] = joint                        ? std::min(force, 0.5 * (s.compression - s.tension))
+           : s.cut_off() && s.crushes() ? 0.5 * (s.compression - s.tension)
+           : s.crushes()                ? s.compression - force
+           : s.cut_off()                ? force - s.tension
+                                        : 0.0;
+  if (joint) i.x[0] = s.friction * i.p[0] + s.cohesion + 0.1 * std::abs(i.p[0]);
   i.xc = s.cut_off() ? s.tension + i.p[0] : 1.0;
   i.xm = s.crushes() ? s.compression - i.p[0] : 1.0;
   i.zc = i.zm = velocity_scale();
@@ -248,7 +259,8 @@ void ConeIteration::finish(ConeAnswer& answer) const {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const ConeStrength& s = strength(k);
     answer.force.push_back(points_[k].p);
-    answer.opening.emplace_back(s.shear() ? points_[k].z[0] : 0.0, s.cut_off() ? points_[k].zc : 0.0);
+    answer.opening.emplace_back(s.shear() ? points_[k].z[0] : 0.0, s.cut_off() ? points_[k].zc : 0.0,
+                                s.crushes() ? points_[k].zm : 0.0);
   }
   answer.factor = factor_;
   answer.gap = gap_;

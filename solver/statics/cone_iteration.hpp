@@ -91,8 +91,8 @@ class ConeIteration {
   }
 
   void start();
-  /// First iterate of a point that is no contact: in the middle of its bounds.
-  void start_bar(const ConeStrength& strength, cone::PointIterate& iterate) const;
+  /// First iterate of a bar or of a joint that crushes: within its bounds.
+  void start_bounded(const ConeStrength& strength, cone::PointIterate& iterate) const;
 
   void note_equations();
 

@@ -35,7 +35,7 @@ namespace ashlar {
 using BodyVelocity = Eigen::Matrix<double, 6, 1>;
 using ConeRows = Eigen::Matrix<double, 3, 6>;
 
-/// Strength of a point. Contacts resist any compression; bars may have bounds on both sides, or none.
+/// Strength of a point. Contacts resist any compression, or crush; bars may have bounds on both sides, or none.
 struct ConeStrength {
   double friction = 0.0;  ///< mu, >= 0
   double cohesion = 0.0;  ///< c, >= 0
@@ -93,11 +93,12 @@ enum class ConeStatus {
 
 struct ConeAnswer {
   ConeStatus status = ConeStatus::inaccurate;
-  std::vector<BodyVelocity> velocity;    ///< v
-  std::vector<Eigen::Vector3d> force;    ///< p
-  std::vector<Eigen::Vector2d> opening;  ///< duals: of the cone's axis, and of the bound of tension; >= 0
-  double factor = 0.0;                   ///< a, of `factor`
-  double gap = 0.0;                      ///< between primal and dual value, >= 0
+  std::vector<BodyVelocity> velocity;  ///< v
+  std::vector<Eigen::Vector3d> force;  ///< p
+  /// Duals: of the cone's axis, of the bound of tension and of that of compression; >= 0
+  std::vector<Eigen::Vector3d> opening;
+  double factor = 0.0;  ///< a, of `factor`
+  double gap = 0.0;     ///< between primal and dual value, >= 0
   double residual =
       0.0;  ///< largest |F + G'p + a F1| of a body that v does not balance, over the largest load
   int iterations = 0;

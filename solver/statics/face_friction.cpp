@@ -59,19 +59,17 @@ double mean_distance(const std::vector<Polygon>& polygons, const Eigen::Vector2d
   return sum / moment_of(polygons).area;
 }
 
-std::vector<Vector3> places_of_friction(const PlacedSurface& a, const PlacedSurface& b,
-                                        const std::vector<CellOverlap>& overlaps,
-                                        const std::vector<ContactPoint>& points) {
-  using Faces = std::array<int, 2>;
-  std::map<Faces, std::vector<std::size_t>> corners;
+std::map<std::array<int, 2>, FaceFriction> face_frictions(const PlacedSurface& a, const PlacedSurface& b,
+                                                          const std::vector<CellOverlap>& overlaps,
+                                                          const std::vector<ContactPoint>& points) {
+  std::map<std::array<int, 2>, std::vector<std::size_t>> corners;
   for (std::size_t k = 0; k < points.size(); ++k)
     if (points[k].type == ContactPointType::face_face)
       corners[{points[k].face_a, points[k].face_b}].push_back(k);
-  std::vector<Vector3> places;
-  places.reserve(points.size());
-  for (const ContactPoint& point : points) places.push_back(middle_of_point(point));
+  std::map<std::array<int, 2>, FaceFriction> frictions;
   for (const auto& [faces, of_overlap] : corners) {
-    const ViewFrame frame(places[of_overlap.front()], points[of_overlap.front()].normal);
+    const ContactPoint& first = points[of_overlap.front()];
+    const ViewFrame frame(middle_of_point(first), first.normal);
     std::vector<Polygon> polygons;
     for (const CellOverlap& overlap : overlaps) {
       if (a.surface().cells[at(overlap.cell_a)].face != faces[0] ||
@@ -89,12 +87,25 @@ std::vector<Vector3> places_of_friction(const PlacedSurface& a, const PlacedSurf
     const Eigen::Vector2d middle = moment.first / moment.area;
     double farthest = 0.0;
     for (const std::size_t k : of_overlap)
-      farthest = std::max(farthest, (frame.project(places[k]) - middle).norm());
-    const double share = std::min(1.0, mean_distance(polygons, middle) / farthest);
-    for (const std::size_t k : of_overlap) {
-      const Eigen::Vector2d arm = (share - 1.0) * (frame.project(places[k]) - middle);
-      places[k] += arm.x() * frame.e1 + arm.y() * frame.e2;
-    }
+      farthest = std::max(farthest, (frame.project(middle_of_point(points[k])) - middle).norm());
+    frictions[faces] = {frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
+                        std::min(1.0, mean_distance(polygons, middle) / farthest)};
+  }
+  return frictions;
+}
+
+std::vector<Vector3> places_of_friction(const std::map<std::array<int, 2>, FaceFriction>& frictions,
+                                        const std::vector<ContactPoint>& points) {
+  std::vector<Vector3> places;
+  places.reserve(points.size());
+  for (const ContactPoint& point : points) {
+    Vector3& place = places.emplace_back(middle_of_point(point));
+    const auto face = point.type == ContactPointType::face_face ? frictions.find({point.face_a, point.face_b})
+                                                                : frictions.end();
+    if (face == frictions.end()) continue;
+    const ViewFrame frame(face->second.middle, point.normal);
+    const Eigen::Vector2d arm = (face->second.share - 1.0) * frame.project(place);
+    place += arm.x() * frame.e1 + arm.y() * frame.e2;
   }
   return places;
 }

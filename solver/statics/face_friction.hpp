@@ -12,6 +12,8 @@
 // at all, is unchanged (notes/limit_analysis.md).
 #pragma once
 
+#include <array>
+#include <map>
 #include <vector>
 
 #include "geometry/contacts/cell_overlap.hpp"
@@ -26,11 +28,21 @@ namespace ashlar {
 [[nodiscard]] double mean_distance(const std::vector<std::vector<Eigen::Vector2d>>& polygons,
                                    const Eigen::Vector2d& about);
 
+/// Friction of the overlap of two faces: at the share of the distance of its pressure from the middle.
+struct FaceFriction {
+  Vector3 middle;  ///< m, c
+  double share;    ///< R / r_max
+};
+
+/// By faces of both blocks, of the overlaps with corners among the points.
+/// @param overlaps of the cells of both blocks. @param points of the pair
+[[nodiscard]] std::map<std::array<int, 2>, FaceFriction> face_frictions(
+    const PlacedSurface& a, const PlacedSurface& b, const std::vector<CellOverlap>& overlaps,
+    const std::vector<ContactPoint>& points);
+
 /// Place of friction of each point, m: as above for the corners of the overlap of two faces, for all other points
 /// their place.
-/// @param overlaps of the cells of both blocks. @param points of the pair
-[[nodiscard]] std::vector<Vector3> places_of_friction(const PlacedSurface& a, const PlacedSurface& b,
-                                                      const std::vector<CellOverlap>& overlaps,
-                                                      const std::vector<ContactPoint>& points);
+[[nodiscard]] std::vector<Vector3> places_of_friction(
+    const std::map<std::array<int, 2>, FaceFriction>& frictions, const std::vector<ContactPoint>& points);
 
 }  // namespace ashlar

@@ -14,10 +14,24 @@ constexpr double still = 1e-4;
 /// Decay rate of slow slip that still counts as motion, relative to the tolerance; on the safe side.
 constexpr double margin_share = 0.1;
 
+/// Refinements of parts within a trial.
+constexpr int most_refinements = 30;
+/// Relative difference of the factors by both bounds of parts up to which one programme refines them.
+constexpr double close_factors = 3e-4;
+
 double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
   return sum;
+}
+
+/// What a programme's answer proves.
+LimitOutcome outcome_of(const ConeAnswer& found, const std::vector<BodyVelocity>& load, std::size_t bodies) {
+  const double motion = largest_motion(found.velocity, load, bodies);
+  if (!(found.residual < 0.1 * still)) return LimitOutcome::unknown;
+  if (motion <= still) return LimitOutcome::stands;
+  return product(found.velocity, found.velocity) > 2.0 * found.gap ? LimitOutcome::moves
+                                                                   : LimitOutcome::unknown;
 }
 
 }  // namespace
@@ -26,6 +40,8 @@ LimitAnalysis::LimitAnalysis(RigidModel model, std::vector<bool> reduced, int th
     : model_(std::move(model)),
       reduced_(std::move(reduced)),
       pulled_(model_),
+      threads_(threads),
+      divides_(has_parts(model_)),
       bound_(program_of(model_, threads, FrictionAt::uniform_pressure)),
       program_(program_of(model_, threads)) {}
 
@@ -33,6 +49,8 @@ LimitAnalysis::LimitAnalysis(RigidModel model, const Chosen& reduced, int thread
     : model_(std::move(model)),
       reduced_(reduced_points(model_, reduced)),
       pulled_(model_),
+      threads_(threads),
+      divides_(has_parts(model_)),
       bound_(program_of(model_, threads, FrictionAt::uniform_pressure)),
       program_(program_of(model_, threads)) {}
 
@@ -65,7 +83,7 @@ double LimitAnalysis::estimate(const LimitTrial& trial) const {
     for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
       const Eigen::Vector3d velocity = program_.relative(n, k, trial.acceleration);
       double lost = -trial.force[k].tail<2>().dot(velocity.tail<2>());
-      if (model_.points[k].bar) lost -= trial.force[k][0] * velocity[0];
+      if (model_.points[k].bar || model_.points[k].part) lost -= trial.force[k][0] * velocity[0];
       (reduced_[k] ? dissipated : power) += reduced_[k] ? lost : -lost;
     }
   }
@@ -73,10 +91,9 @@ double LimitAnalysis::estimate(const LimitTrial& trial) const {
 }
 
 LimitTrial LimitAnalysis::balanced(const LimitFactors& factors) {
-  set_factors(factors);
-  LimitTrial trial = balanced_by(bound_, factors);
+  LimitTrial trial = decided(FrictionAt::uniform_pressure, factors);
   if (trial.outcome != LimitOutcome::stands) return trial;
-  LimitTrial in_corners = balanced_by(program_, factors);
+  LimitTrial in_corners = decided(FrictionAt::corners, factors);
   in_corners.programmes += trial.programmes;
   in_corners.iterations += trial.iterations;
   return in_corners;
@@ -95,7 +112,8 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
     again.programmes += trial.programmes;
     again.iterations += trial.iterations;
     if (again.outcome == LimitOutcome::stands) return again;
-    pulled_ = before;
+    // Parts that were divided have other points.
+    pulled_ = divides_ ? PulledJoints(model_) : before;
   }
   set_factors(factors);
   return trial;
@@ -107,6 +125,55 @@ bool LimitAnalysis::choose_uses(const LimitFactors& factors, const std::vector<E
   return pulled_.choose(model_, force, by_point);
 }
 
+/// The programme with pressure at corners of parts.
+ConeProgram LimitAnalysis::above(FrictionAt friction, const LimitFactors& factors) const {
+  ConeProgram program = program_of(above_.model, threads_, friction);
+  for (std::size_t k = 0; k < above_.source.size(); ++k)
+    program.set_strength(k, strength_of(above_.model, above_.model.points[k],
+                                        reduced_[above_.source[k]] ? factors.strength : 1.0,
+                                        pulled_.use_of(above_.source[k])));
+  return program;
+}
+
+/// Divides parts for velocities of a mechanism. @return false: it needs no division, or there are too many parts
+bool LimitAnalysis::divide(FrictionAt friction, const ConeProgram& above,
+                           const std::vector<BodyVelocity>& velocity) {
+  const std::vector<std::size_t> source =
+      refine_parts(model_, strengths_of(program(friction)), corner_velocities(above_, above, velocity));
+  if (source.empty()) return false;
+  std::vector<bool> reduced;
+  for (const std::size_t k : source) reduced.push_back(reduced_[k]);
+  reduced_ = std::move(reduced);
+  pulled_ = PulledJoints(model_);
+  bound_ = program_of(model_, threads_, FrictionAt::uniform_pressure);
+  program_ = program_of(model_, threads_);
+  above_ = {};
+  single_.reset();
+  return true;
+}
+
+/// A trial that stands with pressure at centroids, or moves with pressure at corners.
+LimitTrial LimitAnalysis::decided(FrictionAt friction, const LimitFactors& factors) {
+  int programmes = 0, iterations = 0;
+  for (int n = 0;; ++n) {
+    set_factors(factors);
+    LimitTrial trial = balanced_by(program(friction), factors);
+    trial.programmes = programmes += trial.programmes;
+    trial.iterations = iterations += trial.iterations;
+    if (!divides_ || trial.outcome != LimitOutcome::moves) return trial;
+    if (above_.corners.empty()) above_ = corner_model(model_);
+    ConeProgram stronger = above(friction, factors);
+    ConeQuestion asked;
+    asked.load = load(factors.load);
+    const ConeAnswer found = stronger.solve(asked);
+    trial.programmes = ++programmes;
+    trial.iterations = iterations += found.iterations;
+    if (outcome_of(found, asked.load, stronger.loaded_bodies()) == LimitOutcome::moves) return trial;
+    trial.outcome = LimitOutcome::unknown;
+    if (n == most_refinements || !divide(friction, stronger, trial.acceleration)) return trial;
+  }
+}
+
 LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& factors) const {
   ConeQuestion asked;
   asked.load = load(factors.load);
@@ -115,13 +182,9 @@ LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& 
   trial.factors = factors;
   trial.programmes = 1;
   trial.iterations = found.iterations;
-  const double motion = largest_motion(found.velocity, asked.load, program.loaded_bodies());
-  const double square = product(found.velocity, found.velocity);
-  if (found.residual < 0.1 * still && motion <= still) {
-    trial.outcome = LimitOutcome::stands;
-    trial.balanced = true;
-  } else if (motion > still && square > 2.0 * found.gap && found.residual < 0.1 * still) {
-    trial.outcome = LimitOutcome::moves;
+  trial.outcome = outcome_of(found, asked.load, program.loaded_bodies());
+  trial.balanced = trial.outcome == LimitOutcome::stands;
+  if (trial.outcome == LimitOutcome::moves) {
     // Power of forces within the reduced strengths: z . x of the cones is the remaining strength.
     double strength_power = 0.0;
     for (std::size_t k = 0; k < model_.points.size(); ++k) {
@@ -129,7 +192,9 @@ LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& 
       const ConeStrength& s = program.points()[k].strength;
       strength_power += found.opening[k][0] * (s.friction * found.force[k][0] + s.cohesion) +
                         found.opening[k][1] * s.tension;
+      if (s.crushes()) strength_power += found.opening[k][2] * s.compression;
     }
+    const double square = product(found.velocity, found.velocity);
     if (strength_power > 0.0) trial.estimate = factors.strength / (1.0 + square / strength_power);
   }
   trial.acceleration = std::move(found.velocity);
@@ -206,6 +271,7 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
   if (!multiplies_loads(model_)) {
     const bool follows = known != nullptr && !known->slow;
     std::vector<Eigen::Vector3d> force = follows ? known->force : std::vector<Eigen::Vector3d>();
+    if (force.size() != model_.points.size()) force.clear();
     if (moves(motion_from_rest(program_, dilates, loads, std::move(force)), false)) return trial;
   }
   if (known != nullptr && slips(known->acceleration)) return trial;
@@ -217,13 +283,33 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
 
 double LimitAnalysis::most_balanced(const ConeQuestion& question) {
   set_factors({});
+  // Parts are divided for the other loads first.
+  if (divides_ && associated({1.0, 0.0}).outcome != LimitOutcome::stands) return 0.0;
   double stands = question.most;
-  for (ConeProgram* program : {&bound_, &program_}) {
-    const ConeAnswer found = program->solve(question);
-    if (found.status != ConeStatus::solved || !(found.residual < still)) return 0.0;
-    stands = std::min(stands, found.factor);
-  }
+  for (const FrictionAt friction : {FrictionAt::uniform_pressure, FrictionAt::corners})
+    stands = std::min(stands, most_that_stands(friction, question.most));
   return stands;
+}
+
+double LimitAnalysis::most_that_stands(FrictionAt friction, double most) {
+  ConeQuestion asked;
+  asked.load = load(0.0);
+  asked.grows = model_.multiplied;
+  asked.most = most;
+  const auto is_found = [](const ConeAnswer& found) {
+    return found.status == ConeStatus::solved && found.residual < still;
+  };
+  for (int n = 0;; ++n) {
+    set_factors({});
+    const ConeAnswer found = program(friction).solve(asked);
+    if (!is_found(found)) return 0.0;
+    if (!divides_ || n == most_refinements) return found.factor;
+    if (above_.corners.empty()) above_ = corner_model(model_);
+    ConeProgram stronger = above(friction, {});
+    const ConeAnswer bound = stronger.solve(asked);
+    if (!is_found(bound) || bound.factor <= found.factor * (1.0 + close_factors)) return found.factor;
+    if (!divide(friction, stronger, found.velocity)) return found.factor;
+  }
 }
 
 double LimitAnalysis::most_that_stands(double most) {
@@ -238,7 +324,7 @@ double LimitAnalysis::most_that_stands(double most) {
   const PulledJoints before = pulled_;
   if (either.status != ConeStatus::solved || !choose_uses({}, either.force)) return stands;
   const double again = most_balanced(asked);
-  if (again < stands) pulled_ = before;
+  if (again < stands) pulled_ = divides_ ? PulledJoints(model_) : before;
   return std::max(stands, again);
 }
 
@@ -252,7 +338,13 @@ std::vector<int> LimitAnalysis::moving_alone(const LimitFactors& factors, double
   return blocks;
 }
 
-LimitMotion LimitAnalysis::motion_of(const LimitTrial& trial) {
+LimitMotion LimitAnalysis::motion_of(const LimitTrial& of) {
+  LimitTrial trial = of;
+  if (trial.force.size() != model_.points.size()) {
+    // Parts have been divided since.
+    set_factors(trial.factors);
+    trial.force = balanced_by(program_, trial.factors).force;
+  }
   if (trial.released) return limit_motion(model_, program_, trial);
   // An associated motion opens joints by their friction angle.
   set_factors(trial.factors);

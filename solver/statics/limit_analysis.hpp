@@ -10,12 +10,16 @@
 //     obeys Coulomb's law (released_motion.hpp). A motion that is found proves itself. That there is none below is
 //     the result of a search only: from motions at larger factors, from motion without friction, and from each body
 //     alone. It is the one for design.
+// Joints that crush have parts (crushing_joints.hpp): a trial stands by forces at their centroids and moves by velocities
+// at their corners. Where neither is so, parts are divided.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "solver/statics/crushing_joints.hpp"
 #include "solver/statics/limit_motion.hpp"
 #include "solver/statics/limit_trial.hpp"
 #include "solver/statics/pulled_joints.hpp"
@@ -43,6 +47,10 @@ class LimitAnalysis {
   LimitAnalysis(RigidModel model, std::vector<bool> reduced, int threads);
 
   [[nodiscard]] const RigidModel& model() const { return model_; }
+  /// True for joints whose strength is divided, by point of the model.
+  [[nodiscard]] const std::vector<bool>& reduced() const { return reduced_; }
+  /// Uses the parts of joints that crush as they are, on the safe side.
+  void keep_parts() { divides_ = false; }
 
   /// Computes forces within the strengths that balance the loads, or the motion that proves that there are none.
   [[nodiscard]] LimitTrial associated(const LimitFactors& factors);
@@ -82,7 +90,14 @@ class LimitAnalysis {
   bool choose_uses(const LimitFactors& factors, const std::vector<Eigen::Vector3d>& force);
   [[nodiscard]] double most_balanced(const ConeQuestion& question);
   [[nodiscard]] std::vector<BodyVelocity> load(double factor) const;
+  [[nodiscard]] ConeProgram& program(FrictionAt friction) {
+    return friction == FrictionAt::corners ? program_ : bound_;
+  }
   [[nodiscard]] LimitTrial balanced_by(ConeProgram& program, const LimitFactors& factors) const;
+  [[nodiscard]] LimitTrial decided(FrictionAt friction, const LimitFactors& factors);
+  [[nodiscard]] ConeProgram above(FrictionAt friction, const LimitFactors& factors) const;
+  bool divide(FrictionAt friction, const ConeProgram& above, const std::vector<BodyVelocity>& velocity);
+  [[nodiscard]] double most_that_stands(FrictionAt friction, double most);
   [[nodiscard]] std::vector<double> dilation() const;
   [[nodiscard]] std::vector<BodyVelocity> without_friction(const LimitFactors& factors, LimitTrial& trial);
   [[nodiscard]] double estimate(const LimitTrial& trial) const;
@@ -91,6 +106,9 @@ class LimitAnalysis {
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point
   PulledJoints pulled_;
+  int threads_;
+  bool divides_;       ///< parts of joints that crush
+  CornerModel above_;  ///< with pressure at corners of parts; empty: not made yet
   ConeProgram bound_;  ///< with the twisting resistance of uniform pressure: what stands must stand here too
   ConeProgram program_;                 ///< with forces in the corners
   std::optional<SingleBodies> single_;  ///< computed at the first use

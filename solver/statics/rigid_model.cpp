@@ -12,6 +12,7 @@
 #include "mechanics/block/rigid_body.hpp"
 #include "mechanics/block/rigid_motions.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/statics/crushing_joints.hpp"
 #include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/rigid_points.hpp"
 
@@ -152,19 +153,9 @@ ConeRows rows_of(const RigidBody& body, const RigidPoint& point, FrictionAt fric
 
 }  // namespace
 
-RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
-                       const std::vector<bool>& multiplied, RigidPointKind kind) {
-  RigidModel model;
-  model.body_of.assign(at(system.count()), -1);
-  model.bodies = bodies_of(system, state, model.body_of);
-  double mass = 0.0;
-  for (const RigidBody& body : model.bodies) mass += body.mass;
-  if (!model.bodies.empty()) model.units.mass = mass / static_cast<double>(model.bodies.size());
-  std::vector<RigidPoint> points = rigid_points(system, state, model.body_of, kind);
-  for (RigidPoint& point : points)
-    point.bodies = {model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
-  add_bars(system, state, model, points);
+void set_points(RigidModel& model, std::vector<RigidPoint> points) {
   // Points of the same two bodies are consecutive.
+  model.pairs.clear();
   const auto key = [](const RigidPoint& point) {
     const auto [a, b] = std::minmax(point.bodies[0], point.bodies[1]);
     return std::pair(a, b);
@@ -187,6 +178,24 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
     }
   }
   model.points = std::move(points);
+}
+
+RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
+                       const std::vector<bool>& multiplied, RigidPointKind kind) {
+  RigidModel model;
+  model.body_of.assign(at(system.count()), -1);
+  model.bodies = bodies_of(system, state, model.body_of);
+  double mass = 0.0;
+  for (const RigidBody& body : model.bodies) mass += body.mass;
+  if (!model.bodies.empty()) model.units.mass = mass / static_cast<double>(model.bodies.size());
+  std::vector<RigidPoint> points = rigid_points(system, state, model.body_of, kind, model.areas);
+  for (auto* some : {&points, &model.areas})
+    for (RigidPoint& point : *some)
+      point.bodies = {model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
+  add_bars(system, state, model, points);
+  set_points(model, std::move(points));
+  if (kind == RigidPointKind::limit)
+    divide_joints(model, [](const RigidPoint& point) { return crushes(point); });
   const Vector3 gravity = system.settings().gravity_at(end_time);
   double largest = 0.0;
   for (RigidBody& body : model.bodies) {
@@ -234,14 +243,16 @@ ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, doubl
   if (point.area == 0.0) return {friction, 0.0, 0.0};
   const double cohesion = point.law.cohesion * point.area / factor / model.units.force();
   const double tension = point.law.tensile_strength * point.area / factor / model.units.force();
+  const double compression = point.law.compressive_strength * point.area / factor / model.units.force();
   if (point.spring.normal > 0.0) {
-    ConeStrength strength{friction, cohesion, tension};
+    ConeStrength strength{friction, cohesion, tension, compression};
     strength.keeps_cohesion = true;
     return strength;
   }
-  if (use == JointUse::either) return {friction, std::max(cohesion, friction * tension), tension};
+  if (use == JointUse::either)
+    return {friction, std::max(cohesion, friction * tension), tension, compression};
   const bool has_tip = use == JointUse::pressed && friction > 0.0;
-  return {friction, cohesion, has_tip ? std::min(tension, cohesion / friction) : tension};
+  return {friction, cohesion, has_tip ? std::min(tension, cohesion / friction) : tension, compression};
 }
 
 std::vector<ConePoint> cone_points(const RigidModel& model, FrictionAt friction) {

@@ -5,7 +5,8 @@
 // corners have all resultants of a pressure of one sign, including friction within the cone of its normal force.
 // Cohesion and tensile strength are per area and cannot be concentrated in a corner: each part of an overlap
 // transmits them at its centroid, with the resultants of a uniform stress on the part. So no division into parts
-// makes a joint stronger than it is.
+// makes a joint stronger than it is. Joints with a compressive strength have sub-areas in place of corners
+// (crushing_joints.hpp).
 //
 // Places with gaps up to the contact distance are included: the motion that closes such a gap is negligible.
 //
@@ -36,6 +37,18 @@ struct BarPoint {
   double shear;        ///< N, >= 0, along rows 1 and 2
 };
 
+/// A sub-area of a joint that crushes: a triangle, whose pressure acts at the point (crushing_joints.hpp).
+struct CrushingPart {
+  std::array<Vector3, 3> corners;  ///< m
+  Vector3 middle;                  ///< m, of the overlap, towards which friction is moved
+  double friction_share = 1.0;     ///< of the distance from there that remains
+
+  /// Place of friction of pressure at a place, as RigidPoint::friction_place.
+  [[nodiscard]] Vector3 friction_place(const Vector3& place) const {
+    return middle + friction_share * (place - middle);
+  }
+};
+
 /// Elastic stiffness of a point, of models with springs.
 struct PointSpring {
   double normal = 0.0;   ///< N/m, along row 0 of the frame
@@ -63,6 +76,7 @@ struct RigidPoint {
   std::optional<BarPoint> bar =
       std::nullopt;  ///< of a bar: rows of the frame without a force are zero. Empty: a contact
   PointSpring spring = {};
+  std::optional<CrushingPart> part = std::nullopt;  ///< of a joint that crushes; empty: any other point
 };
 
 /// Blocks that move as one. The velocity of a material point at x is  t + w x (x - middle)  with  (t, w) = motion y.
@@ -91,6 +105,7 @@ struct RigidModel {
   std::vector<BodyVelocity> steady;      ///< loads without factor, gravity included, in units
   std::vector<BodyVelocity> multiplied;  ///< loads with factor, in units
   bool has_residual_strength = false;    ///< keep_residual_strength() has changed a joint
+  std::vector<RigidPoint> areas;         ///< overlaps in triangles, of joints whose points are their corners
 };
 
 /// Points of a model.
@@ -108,6 +123,9 @@ enum class RigidPointKind {
 /// Place of friction for corners of faces: that of their pressure, or one that resists twisting as uniform pressure
 /// does.
 enum class FrictionAt { corners, uniform_pressure };
+
+/// Sets the points of a model, sorted by their two bodies, and its pairs.
+void set_points(RigidModel& model, std::vector<RigidPoint> points);
 
 /// Its points in the programme, with the strengths of the joints.
 [[nodiscard]] std::vector<ConePoint> cone_points(const RigidModel& model,
@@ -130,8 +148,8 @@ enum class JointUse {
   either    ///< a set that contains both, and exceeds the law: not for results
 };
 
-/// Strength of a point, with friction, cohesion and tensile strength of a joint divided by a factor, but not the
-/// strength of a bar. Springs have the law of joint_law.hpp. @param factor > 0
+/// Strength of a point, with friction, cohesion, tensile and compressive strength of a joint divided by a factor,
+/// but not the strength of a bar. Springs have the law of joint_law.hpp. @param factor > 0
 [[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor,
                                        JointUse use = JointUse::pressed);
 

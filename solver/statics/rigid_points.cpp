@@ -54,6 +54,29 @@ class OverlapParts {
     });
   }
 
+  /// Triangles of the overlaps, with the friction of their faces.
+  void add_areas(const JointLaw& law, const std::map<std::array<int, 2>, FaceFriction>& frictions,
+                 std::vector<RigidPoint>& areas) const {
+    each_closed([&](const CellOverlap& overlap, const ContactPoint& corner) {
+      const auto friction = frictions.find({corner.face_a, corner.face_b});
+      for (std::size_t k = 2; k < overlap.corners.size(); ++k) {
+        const Triangle t = {overlap.corners[0].place, overlap.corners[k - 1].place, overlap.corners[k].place};
+        const double area = area_of(t);
+        if (!(area > 0.0)) continue;
+        add_point((t[0] + t[1] + t[2]) / 3.0, area, overlap, corner, law, areas);
+        RigidPoint& point = areas.back();
+        CrushingPart part{{}, point.place, 1.0};
+        for (std::size_t n = 0; n < 3; ++n) part.corners[n] = place_of(t[n], overlap);
+        if (friction != frictions.end()) {
+          part.middle = friction->second.middle;
+          part.friction_share = friction->second.share;
+        }
+        point.friction_place = part.friction_place(point.place);
+        point.part = part;
+      }
+    });
+  }
+
   void add_springs(const JointLaw& law, std::vector<RigidPoint>& points) const {
     each_closed([&](const CellOverlap& overlap, const ContactPoint& corner) {
       std::vector<Eigen::Vector2d> outline;
@@ -89,6 +112,15 @@ class OverlapParts {
     return nullptr;
   }
 
+  static double area_of(const Triangle& t) {
+    const Eigen::Vector2d u = t[1] - t[0], v = t[2] - t[0];
+    return 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
+  }
+
+  static Vector3 place_of(const Eigen::Vector2d& at, const CellOverlap& overlap) {
+    return overlap.frame.origin + at.x() * overlap.frame.e1 + at.y() * overlap.frame.e2;
+  }
+
   static ContactPoint part_of(ContactPoint corner, const Vector3& place, double area) {
     for (Vector3* material : {&corner.material_a, &corner.material_b}) *material += place - corner.place_a;
     corner.place_a = corner.place_b = place;
@@ -102,8 +134,7 @@ class OverlapParts {
     const Eigen::Vector2d m01 = 0.5 * (t[0] + t[1]), m12 = 0.5 * (t[1] + t[2]), m20 = 0.5 * (t[2] + t[0]);
     for (const Triangle& part : {Triangle{t[0], m01, m20}, Triangle{t[1], m12, m01}, Triangle{t[2], m20, m12},
                                  Triangle{m01, m12, m20}}) {
-      const Eigen::Vector2d u = part[1] - part[0], v = part[2] - part[0];
-      const double area = 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
+      const double area = area_of(part);
       if (!(area > 0.0)) continue;
       add_point((part[0] + part[1] + part[2]) / 3.0, area, overlap, corner, law, points);
     }
@@ -111,10 +142,9 @@ class OverlapParts {
 
   void add_point(const Eigen::Vector2d& at, double area, const CellOverlap& overlap,
                  const ContactPoint& corner, const JointLaw& law, std::vector<RigidPoint>& points) const {
-    const ViewFrame& frame = overlap.frame;
     Eigen::Matrix3d axes;
     axes << corner.normal.transpose(), corner.tangent_1.transpose(), corner.tangent_2.transpose();
-    const Vector3 place = frame.origin + at.x() * frame.e1 + at.y() * frame.e2;
+    const Vector3 place = place_of(at, overlap);
     points.push_back({.blocks = {pair_.a(), pair_.b()},
                       .place = place,
                       .frame = axes,
@@ -134,7 +164,8 @@ class OverlapParts {
 }  // namespace
 
 std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& state,
-                                     const std::vector<int>& body_of, RigidPointKind kind) {
+                                     const std::vector<int>& body_of, RigidPointKind kind,
+                                     std::vector<RigidPoint>& areas) {
   const bool springs = kind == RigidPointKind::springs;
   BlockSystem view = with_corners(system);
   RunState copy;
@@ -154,9 +185,10 @@ std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& 
   for (const ContactPair& pair : contacts.pairs(view, copy, found, PairUse::statics)) {
     while (next->blocks != PairKey{pair.a(), pair.b()}) ++next;
     const JointLaw law = system.law(pair.a(), pair.b());
-    const std::vector<Vector3> friction_places =
-        places_of_friction(contacts.finder().placed(pair.a()), contacts.finder().placed(pair.b()),
-                           next->contacts.overlaps, pair.points());
+    const auto frictions =
+        face_frictions(contacts.finder().placed(pair.a()), contacts.finder().placed(pair.b()),
+                       next->contacts.overlaps, pair.points());
+    const std::vector<Vector3> friction_places = places_of_friction(frictions, pair.points());
     for (std::size_t k = 0; k < pair.points().size(); ++k) {
       const ContactPoint& point = pair.points()[k];
       if (point.gap > reach || (springs && point.type == ContactPointType::face_face)) continue;
@@ -176,6 +208,7 @@ std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& 
       parts.add_springs(law, points);
     else if (law.cohesion > 0.0 || law.tensile_strength > 0.0)
       parts.add(law, points);
+    if (!springs) parts.add_areas(law, frictions, areas);
   }
   return points;
 }

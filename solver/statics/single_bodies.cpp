@@ -35,7 +35,9 @@ std::unique_ptr<LimitAnalysis> with_others_held(const RigidModel& model, const s
   }
   fixed.end = held.points.size();
   if (fixed.end > 0) held.pairs = {fixed};
-  return std::make_unique<LimitAnalysis>(std::move(held), std::move(reduced_points), 1);
+  auto analysis = std::make_unique<LimitAnalysis>(std::move(held), std::move(reduced_points), 1);
+  analysis->keep_parts();
+  return analysis;
 }
 
 }  // namespace

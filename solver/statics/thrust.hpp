@@ -4,7 +4,8 @@
 // largest (Heyman, The stone skeleton, Int. J. Solids Struct. 2 (1966) 249).
 //
 // The support is released along one coordinate (yielding_support.hpp). Thrust is the load on that coordinate, in
-// balance with the others. Each extreme is a limit load (cone_program.hpp).
+// balance with the others. Each extreme is a limit load (cone_program.hpp). Joints that crush have their pressure at
+// centroids of parts, which makes the range smaller than it is.
 #pragma once
 
 #include <optional>
@@ -36,6 +37,10 @@ struct ThrustRange {
 /// @return empty if no forces within the strengths balance the loads
 [[nodiscard]] std::vector<ThrustRange> thrust_ranges(const RigidModel& model, const Vector3& down,
                                                      int threads);
+
+/// Divides the parts of joints that crush until pressure at their centroids and at their corners (crushing_joints.hpp)
+/// has the same extremes of thrust, for thrust_ranges. The extremes differ by ThrustState::gap.
+void divide_for_thrust(RigidModel& model, const Vector3& down, int threads);
 
 /// Resultant of a joint and its place.
 struct JointResultant {

@@ -150,6 +150,7 @@ class JointLaws {
     result.friction = tangent(given.friction_angle);
     result.cohesion = given.cohesion;
     result.tensile_strength = given.tensile_strength;
+    if (given.compressive_strength) result.compressive_strength = *given.compressive_strength;
     // One entry may give the residual and a later one a smaller strength.
     result.residual = {
         std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),

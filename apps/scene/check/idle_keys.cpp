@@ -115,8 +115,8 @@ void warn_of_ties(const Scene& scene, IdleKeys& keys) {
     if (!joint.tied.value_or(false) || is_glob(joint.blocks[0]) || is_glob(joint.blocks[1])) continue;
     for (const char* key :
          {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength",
-          "friction_angle_residual", "cohesion_residual", "tensile_strength_residual", "dilation_angle",
-          "damping", "restitution", "fracture_energy"})
+          "compressive_strength", "friction_angle_residual", "cohesion_residual", "tensile_strength_residual",
+          "dilation_angle", "damping", "restitution", "fracture_energy"})
       keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
   }
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/scene/check/accuracy_checks.hpp"
+#include "apps/scene/check/crushing_checks.hpp"
 #include "apps/scene/check/joint_checks.hpp"
 #include "apps/scene/check/measure_checks.hpp"
 #include "apps/scene/check/water_checks.hpp"
@@ -340,6 +341,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
   check_group_measures(scene, diagnostics, of_blocks);
   check_joints(scene, blocks, of_blocks);
   check_joint_laws(scene, diagnostics);
+  check_compressive_strengths(scene, diagnostics);
   check_factor_search(scene, diagnostics);
   check_names(scene, scene.water, "water", diagnostics);
   check_water(scene, diagnostics, of_blocks);

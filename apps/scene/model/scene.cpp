@@ -15,6 +15,7 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
   const auto replace = [](std::optional<double>& value, const std::optional<double>& given) {
     if (given) value = given;
   };
+  replace(law.compressive_strength, joint.compressive_strength);
   replace(law.friction_angle_residual, joint.friction_angle_residual);
   replace(law.cohesion_residual, joint.cohesion_residual);
   replace(law.tensile_strength_residual, joint.tensile_strength_residual);

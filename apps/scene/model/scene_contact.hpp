@@ -23,6 +23,7 @@ struct SceneJointLaw {
   double friction_angle = 0.0;             ///< deg, 0 to less than 90
   double cohesion = 0.0;                   ///< Pa, >= 0
   double tensile_strength = 0.0;           ///< Pa, >= 0
+  std::optional<double> compressive_strength;  ///< Pa, > 0; empty: unlimited
   /// Strength of failed or later contacts; at most the values above. Empty: friction_angle, no cohesion, no tensile strength
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
   double dilation_angle = 0.0;                    ///< deg, 0 to friction_angle and its residual value
@@ -67,6 +68,7 @@ struct SceneJoint {
   std::optional<double> friction_angle;
   std::optional<double> cohesion;
   std::optional<double> tensile_strength;
+  std::optional<double> compressive_strength;
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
   std::optional<double> dilation_angle, damping;
   std::optional<double> restitution;

@@ -38,6 +38,7 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
   table.read_number("friction_angle", contact.law.friction_angle, range::zero_to_below_90);
   table.read_number("cohesion", contact.law.cohesion, range::not_negative);
   table.read_number("tensile_strength", contact.law.tensile_strength, range::not_negative);
+  table.read_number("compressive_strength", contact.law.compressive_strength, range::positive);
   read_more_of_joint(table, contact.law);
   table.read_number_or_auto("distance", contact.distance, range::positive);
   table.read_number_or_auto("angle", contact.angle, range::zero_to_45);
@@ -108,6 +109,7 @@ SceneJoint read_joint(TomlTableReader& table) {
   table.read_number("friction_angle", joint.friction_angle, range::zero_to_below_90);
   table.read_number("cohesion", joint.cohesion, range::not_negative);
   table.read_number("tensile_strength", joint.tensile_strength, range::not_negative);
+  table.read_number("compressive_strength", joint.compressive_strength, range::positive);
   read_more_of_joint(table, joint);
   read_tie(table, joint);
   return joint;

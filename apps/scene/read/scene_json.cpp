@@ -45,6 +45,7 @@ Json to_json(const SceneContact& contact, bool augmented) {
                {"tensile_strength", contact.law.tensile_strength},
                {"distance", or_auto(contact.distance)},
                {"angle", or_auto(contact.angle)}};
+  if (contact.law.compressive_strength) json["compressive_strength"] = *contact.law.compressive_strength;
   add_residuals(json, contact.law);
   json["dilation_angle"] = contact.law.dilation_angle;
   json["damping"] = contact.law.damping;
@@ -71,6 +72,7 @@ Json to_json(const SceneJoint& joint) {
   if (joint.friction_angle) json["friction_angle"] = *joint.friction_angle;
   if (joint.cohesion) json["cohesion"] = *joint.cohesion;
   if (joint.tensile_strength) json["tensile_strength"] = *joint.tensile_strength;
+  if (joint.compressive_strength) json["compressive_strength"] = *joint.compressive_strength;
   add_residuals(json, joint);
   if (joint.dilation_angle) json["dilation_angle"] = *joint.dilation_angle;
   if (joint.damping) json["damping"] = *joint.damping;

@@ -1,0 +1,80 @@
+#include "apps/scene/check/crushing_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "apps/scene/model/scene_names.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A table of joints and the law that it results in.
+struct JointTablePath {
+  std::string path;
+  SceneJointLaw law;
+};
+
+std::vector<JointTablePath> tables_of_joints(const Scene& scene) {
+  std::vector<JointTablePath> tables = {{"contact", scene.contact.law}};
+  const auto add = [&](const std::string& path, const SceneJoint& joint) {
+    tables.push_back({path, scene.contact.law});
+    override_law(tables.back().law, joint);
+  };
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) add(fmt::format("joint.{}", k), scene.joint[k]);
+  for (std::size_t s = 0; s < scene.stage.size(); ++s)
+    for (std::size_t k = 0; k < scene.stage[s].joint.size(); ++k)
+      add(fmt::format("stage.{}.joint.{}", s, k), scene.stage[s].joint[k]);
+  return tables;
+}
+
+/// A tensile strength above the compressive one, at the key of the two that the table gives.
+void check_against_tension(const Scene& scene, const JointTablePath& table, Diagnostics& diagnostics) {
+  const SceneJointLaw& law = table.law;
+  if (!law.compressive_strength || law.tied || law.tensile_strength <= *law.compressive_strength) return;
+  for (const char* key : {"compressive_strength", "tensile_strength", "tied"}) {
+    const std::string place = fmt::format("{}.{}", table.path, key);
+    if (!scene.places.contains(place)) continue;
+    diagnostics.error(scene.places.value(place),
+                      fmt::format("compressive_strength is below tensile_strength ({} Pa, {} Pa), at least "
+                                  "{} Pa is needed",
+                                  *law.compressive_strength, law.tensile_strength, law.tensile_strength));
+    return;
+  }
+}
+
+/// Why an analysis has no joints that crush; empty: it has them.
+std::string analysis_without_crushing(const Scene& scene) {
+  const SceneAnalysis& analysis = scene.analysis;
+  if (!scene.stage.empty()) return "an analysis with stages";
+  if (analysis.type == SceneAnalysis::Type::dynamic || analysis.type == SceneAnalysis::Type::statics)
+    return fmt::format("an analysis of type \"{}\"", name_of(analysis_type_names, analysis.type));
+  if (analysis.method == SceneAnalysis::Method::elastic) return "an analysis of method \"elastic\"";
+  if (!analysis.movement.supports.empty()) return "a movement of supports";
+  return "";
+}
+
+}  // namespace
+
+std::optional<std::string> first_compressive_strength(const Scene& scene) {
+  for (const JointTablePath& table : tables_of_joints(scene)) {
+    const std::string key = table.path + ".compressive_strength";
+    if (scene.places.contains(key)) return key;
+  }
+  return std::nullopt;
+}
+
+void check_compressive_strengths(const Scene& scene, Diagnostics& diagnostics) {
+  const std::optional<std::string> first = first_compressive_strength(scene);
+  if (!first) return;
+  for (const JointTablePath& table : tables_of_joints(scene))
+    check_against_tension(scene, table, diagnostics);
+  const std::string analysis = analysis_without_crushing(scene);
+  if (analysis.empty()) return;
+  diagnostics.error(scene.places.key(*first),
+                    fmt::format("compressive_strength in {}, which has none: type = \"factor-of-safety\", "
+                                "\"capacity\" or \"thrust\" by limit analysis is needed",
+                                analysis));
+}
+
+}  // namespace ashlar

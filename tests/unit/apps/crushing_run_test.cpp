@@ -1,0 +1,119 @@
+// `ashlar run` of scenes whose joints crush, or need strength.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "unit/apps/run_fixture.hpp"
+
+namespace ashlar::crushing_run_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double g = 9.81;
+
+/// A pier of 0.5 m x 0.4 m x 2 m and 800 kg on the ground, pushed along x at its top.
+std::string pushed_pier(const std::string& contact) {
+  return std::string("[analysis]\ntype = \"capacity\"\n") +
+         "capacity = { lower = 0.001, upper = 100, tolerance = 0.001 }\n[contact]\nfriction_angle = 40\n" +
+         contact + "\n" + rock_text + R"([[block]]
+name = "ground"
+fixed = true
+box = { min = [-1, -1, -1], max = [2, 2, 0] }
+[[block]]
+name = "pier"
+material = "rock"
+box = { min = [0, 0, 0], max = [0.5, 0.4, 2] }
+[[block.load]]
+point = [0, 0.2, 2]
+force = [1000, 0, 0]
+)";
+}
+
+class CrushingRun : public RunCommand {
+ protected:
+  nlohmann::json summary(const std::string& out) {
+    return nlohmann::json::parse(text(out + "/summary.json"));
+  }
+  int run_of(const std::string& scene, const std::string& out) {
+    write_text(scene_, scene);
+    return command({"run", scene_.string(), "--out", (folder_ / out).string()});
+  }
+};
+
+TEST_F(CrushingRun, ALoadFactorHasTheLeverArmOfTheStressBlock) {
+  // V h = W (b - w)/2, w = W/(f t) = 0.1 m.
+  const double weight = 800.0 * g, strength = weight / (0.1 * 0.4);
+  ASSERT_EQ(run_of(pushed_pier("compressive_strength = " + std::to_string(strength)), "out"), 0) << faults_;
+  const nlohmann::json found = summary("out").at("load_factor");
+  const double reference = weight * 0.2 / (2.0 * 1000.0);
+  EXPECT_LT(found.at("lower").get<double>(), reference * 1.0005);
+  EXPECT_GT(found.at("upper").get<double>(), reference * 0.9995);
+  EXPECT_LT(found.at("gap").get<double>(), 1.001e-3);
+  EXPECT_TRUE(found.at("least_strength").is_null());
+}
+
+TEST_F(CrushingRun, AnAnswerSaysWhatStrengthItNeeds) {
+  // w = b - 2 V h/W at the lower end, f = W/(w t), found on the safe side by up to 3 %.
+  ASSERT_EQ(run_of(pushed_pier(""), "out"), 0) << faults_;
+  const nlohmann::json found = summary("out").at("load_factor");
+  const double weight = 800.0 * g, force = 1000.0 * found.at("lower").get<double>();
+  const double strength = weight / ((0.5 - 2.0 * force * 2.0 / weight) * 0.4);
+  const nlohmann::json& least = found.at("least_strength");
+  EXPECT_GT(least.at("value").get<double>(), 0.99 * strength);
+  EXPECT_LT(least.at("value").get<double>(), 1.05 * strength);
+  EXPECT_THAT(least.at("joint"), ElementsAre("ground", "pier"));
+  EXPECT_THAT(faults_, HasSubstr("the answer needs a compressive strength of"));
+}
+
+TEST_F(CrushingRun, LoadsThatCrushJointsAreReported) {
+  // The weight needs W/(b t) = 39.24 kPa.
+  ASSERT_EQ(run_of(pushed_pier("compressive_strength = 30e3"), "out"), 0) << faults_;
+  EXPECT_THAT(faults_,
+              HasSubstr("joints crush under the loads without a factor: compressive_strength is 0.03 MPa, at "
+                        "least 0.039"));
+  const nlohmann::json found = summary("out").at("load_factor");
+  EXPECT_TRUE(found.at("lower").is_null());
+  EXPECT_NEAR(found.at("least_strength").at("value").get<double>(), 39240.0, 0.03 * 39240.0);
+}
+
+TEST_F(CrushingRun, BadStrengthsAreRefusedAtTheirPlaces) {
+  EXPECT_EQ(run_of(pushed_pier("compressive_strength = 0"), "out"), 2);
+  EXPECT_THAT(faults_, HasSubstr(":6:24: error: compressive_strength is out of range (0)"));
+  EXPECT_EQ(run_of(pushed_pier("compressive_strength = 1e5\ntensile_strength = 2e5"), "out"), 2);
+  EXPECT_THAT(
+      faults_,
+      HasSubstr(":6:24: error: compressive_strength is below tensile_strength (100000 Pa, 200000 Pa)"));
+}
+
+TEST_F(CrushingRun, AnalysesWithoutCrushingRefuseTheKey) {
+  const std::string scene = pushed_pier("compressive_strength = 1e6");
+  const auto with = [&](const std::string& analysis) {
+    return analysis + scene.substr(scene.find("\n[contact]"));
+  };
+  for (const char* analysis : {"[analysis]\nend_time = 1\ntime_step = 0.1", "[analysis]\ntype = \"static\"",
+                               "[analysis]\ntype = \"factor-of-safety\"\nmethod = \"elastic\"",
+                               "[analysis]\ntype = \"thrust\"\nmovement = { supports = [\"ground\"] }"}) {
+    EXPECT_EQ(run_of(with(analysis), "out"), 2) << analysis;
+    EXPECT_THAT(faults_, HasSubstr(": error: compressive_strength in a")) << analysis;
+  }
+  // A joint that loses strength has no limit analysis by itself.
+  EXPECT_EQ(run_of(pushed_pier("compressive_strength = 1e6\ncohesion = 1e4"), "out"), 2);
+  EXPECT_THAT(faults_, HasSubstr("compressive_strength in a search by static analyses"));
+}
+
+TEST_F(CrushingRun, AJointOfAStageIsRefusedToo) {
+  const std::string scene = pushed_pier("");
+  EXPECT_EQ(run_of("[analysis]\ntype = \"static\"\n" + scene.substr(scene.find("\n[contact]")) +
+                       "[[stage]]\nname = \"one\"\n[[stage.joint]]\nblocks = [\"pier\", \"ground\"]\n"
+                       "compressive_strength = 1e6\n",
+                   "out"),
+            2);
+  EXPECT_THAT(faults_, HasSubstr("compressive_strength in an analysis with stages"));
+}
+
+}  // namespace
+}  // namespace ashlar::crushing_run_test
