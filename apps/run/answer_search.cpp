@@ -13,12 +13,12 @@
 namespace ashlar {
 namespace {
 
-/// Bounds found by limit analysis; empty if one of them is unknown.
+/// Bounds found along the load path of limit analysis; empty if one of them is unknown.
 std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>& limits) {
-  if (!limits || !limits->answer.released.resolved) return std::nullopt;
-  const LimitBracket& released = limits->answer.released;
-  if (!released.lower || !released.upper) return std::nullopt;
-  return ExpectedFactor{*released.lower, *released.upper};
+  if (!limits || !limits->path.answer.resolved) return std::nullopt;
+  const PathAnswer& path = limits->path.answer;
+  if (!path.lower || !path.upper) return std::nullopt;
+  return ExpectedFactor{*path.lower, *path.upper};
 }
 
 /// What the first rank finds for all.

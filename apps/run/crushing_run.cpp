@@ -16,6 +16,8 @@ namespace {
 
 /// Pa: strength of weak masonry, which a scene without a strength may rely on.
 constexpr double ordinary_strength = 2e6;
+/// Bodies up to which the plastic limit of joints that crush is searched for the strength that they need.
+constexpr std::size_t most_bodies = 12;
 
 std::string megapascals(double strength) {
   return fmt::format("{:.3g} MPa", 1e-6 * strength);
@@ -24,10 +26,6 @@ std::string megapascals(double strength) {
 std::string joint_in_words(const LeastStrength& least, const Simulation& simulation) {
   return fmt::format("between {} and {}", block_name(simulation, least.joint[0]),
                      block_name(simulation, least.joint[1]));
-}
-
-LeastStrength found_or_none(const std::optional<LeastStrength>& least) {
-  return least.value_or(LeastStrength{});
 }
 
 }  // namespace
@@ -51,19 +49,22 @@ void refuse_idle_crushing(const Scene& scene, const std::optional<RigidModel>& m
         fmt::format("blocks touch at {} points or edges, which have no area and do not crush", count));
 }
 
-CrushingFindings find_crushing(const LimitAnalysis& analysis, const std::optional<double>& lower,
+CrushingFindings find_crushing(const LimitAnalysis& analysis, const PathAnswer& path,
                                const SceneAnalysis& asked, int threads) {
   CrushingFindings findings;
+  const std::optional<double>& lower = path.lower;
   const bool safety = asked.type == SceneAnalysis::Type::safety;
   const RigidModel& model = analysis.model();
   findings.given = std::numeric_limits<double>::infinity();
   for (const RigidPoint& point : model.points)
     if (crushes(point)) findings.given = std::min(findings.given, point.law.compressive_strength);
   if (!std::isfinite(findings.given)) {
-    if (lower)
-      findings.least = found_or_none(
-          least_strength(model, analysis.reduced(),
-                         safety ? LimitFactors{*lower, 1.0} : LimitFactors{1.0, *lower}, threads));
+    if (path.least_strength > 0.0) findings.least = {path.least_strength, path.strength_joint};
+    if (lower && model.bodies.size() <= most_bodies) {
+      const auto plastic = least_strength(
+          model, analysis.reduced(), safety ? LimitFactors{*lower, 1.0} : LimitFactors{1.0, *lower}, threads);
+      if (plastic) findings.least = *plastic;
+    }
     return findings;
   }
   if (lower && (!safety || *lower >= 1.0)) return findings;

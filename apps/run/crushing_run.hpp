@@ -17,10 +17,10 @@ namespace ashlar {
 void refuse_idle_crushing(const Scene& scene, const std::optional<RigidModel>& model,
                           Diagnostics& diagnostics);
 
-/// @param lower factor that stands; empty: none
-[[nodiscard]] CrushingFindings find_crushing(const LimitAnalysis& analysis,
-                                             const std::optional<double>& lower, const SceneAnalysis& asked,
-                                             int threads);
+/// @param path the factor that stands, with the strength that it needs on springs. Of few blocks the strength is that of
+/// the plastic limit, which takes longer
+[[nodiscard]] CrushingFindings find_crushing(const LimitAnalysis& analysis, const PathAnswer& path,
+                                             const SceneAnalysis& asked, int threads);
 
 /// Joints that crush under loads without a factor; empty: none do.
 [[nodiscard]] std::string crushing_in_words(const CrushingFindings& findings, const Simulation& simulation);

@@ -270,7 +270,7 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation
   }
   findings.answer.interrupted = findings.answer.interrupted || findings.path.answer.interrupted;
   if (!findings.answer.interrupted)
-    findings.crushing = find_crushing(analysis, findings.path.answer.lower, scene.analysis, threads);
+    findings.crushing = find_crushing(analysis, findings.path.answer, scene.analysis, threads);
   return findings;
 }
 

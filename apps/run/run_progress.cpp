@@ -27,6 +27,10 @@ void RunProgress::limits_found(const LimitFindings& findings) {
     out_ << fmt::format(
         "factor {:.5g}, {}: {} ({} iterations)\n", trial.factors.strength * trial.factors.load,
         trial.released ? "released" : "associated", to_string(trial.outcome), trial.iterations);
+  for (const LimitTrial& trial : findings.path.answer.trials)
+    out_ << fmt::format("factor {:.5g}, path: {} ({} iterations)\n",
+                        trial.factors.strength * trial.factors.load, to_string(trial.outcome),
+                        trial.iterations);
 }
 
 void RunProgress::trial_continues(double factor, int iterations) {

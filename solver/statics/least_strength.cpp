@@ -151,6 +151,8 @@ std::optional<LeastStrength> least_strength(const RigidModel& model, const std::
     next = helps && n % 3 != 2 ? std::min(above, low * strength_stride) : middle;
   }
   if (high == 0.0) return std::nullopt;
+  // Nothing is pressed: no strength was too small.
+  if (trials.joint()[0] < 0) return LeastStrength{};
   return LeastStrength{high * trials.unit(), trials.joint()};
 }
 

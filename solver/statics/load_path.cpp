@@ -11,11 +11,11 @@ namespace ashlar {
 namespace {
 
 /// Inertia of steps over the stiffness of joints: at first, least and most.
-constexpr double first_inertia = 1e-7, least_inertia = 1e-14, most_inertia = 1e3;
+constexpr double first_inertia = 1e-7, least_path_inertia = 1e-14, most_inertia = 1e3;
 /// Ratio of inertia after a step that converged, and after one that did not; then so many steps converge first.
 constexpr double lighter = 0.1, heavier = 10.0;
 /// Relative to the largest load: unbalanced force at rest.
-constexpr double at_rest = 1e-6;
+constexpr double unbalanced_at_rest = 1e-6;
 constexpr int calm_steps = 4;
 constexpr int most_path_steps = 300, most_newton_steps = 1000;
 /// Relative to the largest load: the inertia of motion that has no acceleration.
@@ -50,9 +50,35 @@ PathState LoadPath::unloaded() const {
   return state;
 }
 
-void LoadPath::set_strengths(double factor) {
+void LoadPath::set_strengths(double factor, double cap) {
+  for (std::size_t k = 0; k < model_.points.size(); ++k) {
+    const RigidPoint& point = model_.points[k];
+    ConeStrength strength = strength_of(model_, point, reduced_[k] ? factor : 1.0);
+    if (!point.bar && std::isfinite(cap))
+      strength.compression = std::min(strength.compression, cap * point.area / model_.units.force());
+    program_.set_strength(k, strength);
+  }
+}
+
+double LoadPath::largest_pressure(const PathState& state) const {
+  double largest = 0.0;
   for (std::size_t k = 0; k < model_.points.size(); ++k)
-    program_.set_strength(k, strength_of(model_, model_.points[k], reduced_[k] ? factor : 1.0));
+    if (!model_.points[k].bar && model_.points[k].area > 0.0)
+      largest = std::max(largest, state.force[k][0] * model_.units.force() / model_.points[k].area);
+  return largest;
+}
+
+PairKey LoadPath::most_pressed(const PathState& state, double pressure) const {
+  std::map<PairKey, double> forces;
+  for (std::size_t k = 0; k < model_.points.size(); ++k) {
+    const RigidPoint& point = model_.points[k];
+    const double force = state.force[k][0] * model_.units.force();
+    if (!point.bar && point.area > 0.0 && force >= pressure * point.area)
+      forces[key_of(point.blocks)] += force;
+  }
+  const auto most = std::max_element(forces.begin(), forces.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == forces.end() ? PairKey{-1, -1} : most->first;
 }
 
 std::vector<BodyVelocity> LoadPath::load(double factor) const {
@@ -86,8 +112,8 @@ double LoadPath::note_displacement(PathState& state) const {
   return share;
 }
 
-PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
-  set_strengths(factors.strength);
+PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors, double cap) {
+  set_strengths(factors.strength, cap);
   const std::vector<BodyVelocity> loads = load(factors.load);
   double largest = 0.0;
   for (const BodyVelocity& own : loads) largest = std::max(largest, own.norm());
@@ -117,11 +143,11 @@ PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors) {
       trial.way = std::move(next.moved);
       return trial;
     }
-    if (unbalanced <= at_rest * largest) {
+    if (unbalanced <= unbalanced_at_rest * largest) {
       trial.outcome = LimitOutcome::stands;
       return trial;
     }
-    if (--calm <= 0) inertia = std::max(inertia * lighter, least_inertia);
+    if (--calm <= 0) inertia = std::max(inertia * lighter, least_path_inertia);
   }
   return trial;
 }
@@ -149,7 +175,7 @@ std::vector<PairKey> LoadPath::yielding_joints(const PathState& rest, const Path
 }
 
 LimitTrial LoadPath::motion_of(const PathTrial& trial, const LimitFactors& factors) {
-  set_strengths(factors.strength);
+  set_strengths(factors.strength, std::numeric_limits<double>::infinity());
   const std::vector<BodyVelocity> loads = load(factors.load);
   std::vector<double> dilation;
   for (std::size_t k = 0; k < model_.points.size(); ++k)

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "solver/statics/limit_trial.hpp"
@@ -48,7 +49,14 @@ class LoadPath {
   /// Joints without force but for the pretension of bars.
   [[nodiscard]] PathState unloaded() const;
   /// From one state to rest under other factors, or to motion.
-  [[nodiscard]] PathTrial to(const PathState& start, const LimitFactors& factors);
+  /// @param cap Pa, > 0, compressive strength of all joints where they have no smaller one
+  [[nodiscard]] PathTrial to(const PathState& start, const LimitFactors& factors,
+                             double cap = std::numeric_limits<double>::infinity());
+
+  /// Pa, the largest pressure at a point. @return 0: nothing is pressed
+  [[nodiscard]] double largest_pressure(const PathState& state) const;
+  /// Blocks of the joint with the largest force at points under at least a pressure, Pa; {-1, -1}: none.
+  [[nodiscard]] PairKey most_pressed(const PathState& state, double pressure) const;
 
   /// Pairs of blocks whose joint transmits at least a hundredth of the largest force of a joint at `rest`, and slides or
   /// opens at all its points in `trial`.
@@ -61,7 +69,7 @@ class LoadPath {
   [[nodiscard]] const ConeProgram& program() const { return program_; }
 
  private:
-  void set_strengths(double factor);
+  void set_strengths(double factor, double cap);
   [[nodiscard]] std::vector<BodyVelocity> load(double factor) const;
   /// Sets the displacement of a state. @return the largest share of what is allowed
   double note_displacement(PathState& state) const;

@@ -16,6 +16,9 @@ constexpr double path_stride = 1.5;
 /// Relative accuracy of the onset, and the finest one.
 constexpr double onset_accuracy = 0.01;
 constexpr int most_path_trials = 60;
+/// Trials and ratio of the compressive strengths between which the least one is.
+constexpr int most_strengths = 14;
+constexpr double strength_accuracy = 1.05;
 /// Strength factor at the start of the path: with ten times their strength joints neither slide nor tear, unless blocks
 /// would wedge at any friction that there is.
 constexpr double nothing_slides = 0.1;
@@ -40,6 +43,7 @@ class PathSearch {
     answer_.resolved = is_resolved();
     if (answer_.lower) answer_.displacement = rest_.rbegin()->second.end.displacement;
     if (!answer_.interrupted) find_onset();
+    if (!answer_.interrupted && answer_.lower) find_strength();
     return std::move(answer_);
   }
 
@@ -121,6 +125,26 @@ class PathSearch {
     }
     if (low >= search_.upper) return std::nullopt;
     return low == 0.0 ? search_.lower : std::min(path_stride * low, search_.upper);
+  }
+
+  /// Lets the compressive strength of all joints fall at `lower`, from that which no point reaches.
+  void find_strength() {
+    PathState state = rest_.rbegin()->second.end;
+    double stands = path_.largest_pressure(state), moves = 0.0;
+    if (!(stands > 0.0)) return;
+    for (int n = 0; n < most_strengths && !(moves > 0.0 && stands <= strength_accuracy * moves) && goes_on_();
+         ++n) {
+      const double next = moves > 0.0 ? std::sqrt(stands * moves) : 0.5 * stands;
+      PathTrial trial = path_.to(state, factors(*answer_.lower), next);
+      if (trial.outcome == LimitOutcome::stands) {
+        stands = next;
+        state = std::move(trial.end);
+      } else {
+        moves = next;
+      }
+    }
+    answer_.least_strength = stands;
+    answer_.strength_joint = path_.most_pressed(state, (1.0 - 1e-6) * stands);
   }
 
   void find_onset() {

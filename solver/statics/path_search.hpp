@@ -27,6 +27,10 @@ struct PathAnswer {
   std::optional<double> onset;
   double onset_displacement = 0.0;    ///< m
   std::vector<PairKey> onset_joints;  ///< blocks of the joints that yield there
+  /// Pa, compressive strength with which all joints still bear `lower`, within 5 %: it falls from where no point reaches
+  /// it, pressure at the points of springs. 0: nothing is pressed, or there is no `lower`
+  double least_strength = 0.0;
+  PairKey strength_joint = {-1, -1};  ///< blocks of the joint that needs it
   std::optional<LimitTrial> motion;   ///< of `upper`, in the model of the path
   std::vector<LimitTrial> trials;     ///< in order, without motions and forces
 };

@@ -4,7 +4,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::load_path_test {
 namespace {
 
 using namespace test_support;
@@ -67,4 +67,4 @@ TEST(LoadPath, AnswerDoesNotDependOnTheOrderOfBlocks) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::load_path_test

@@ -4,7 +4,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::path_search_test {
 namespace {
 
 using namespace test_support;
@@ -31,14 +31,14 @@ LimitScene pushed_wall(const std::vector<BoxOfWall>& boxes, double friction) {
   LimitScene scene;
   scene.law = joint(friction);
   for (std::size_t k = 0; k < boxes.size(); ++k) {
-    scene.add(std::to_string(k), box(boxes[k].low, boxes[k].high));
+    scene.add(std::to_string(k), Polyhedron(make_box(boxes[k].low, boxes[k].high)));
     const Vector3 size = boxes[k].high - boxes[k].low;
     Load load;
     load.where = Vector3(0.5 * (boxes[k].low + boxes[k].high));
     load.vector = Vector3(rock.density * size.prod() * g, 0.0, 0.0);
     scene.blocks.back().loads.push_back(load);
   }
-  scene.add_fixed(box({-1, -1, -0.5}, {3, 1, 0}));
+  scene.add_fixed(Polyhedron(make_box({-1, -1, -0.5}, {3, 1, 0})));
   return scene;
 }
 
@@ -119,4 +119,4 @@ TEST(PathSearch, StopsWhenItIsToldTo) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::path_search_test

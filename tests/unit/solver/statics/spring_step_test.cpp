@@ -4,7 +4,7 @@
 
 #include "sample_limits.hpp"
 
-namespace ashlar {
+namespace ashlar::spring_step_test {
 namespace {
 
 using test_support::g;
@@ -109,4 +109,4 @@ TEST(SpringStep, RisesByItsDilation) {
 }
 
 }  // namespace
-}  // namespace ashlar
+}  // namespace ashlar::spring_step_test
