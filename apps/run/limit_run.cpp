@@ -135,6 +135,19 @@ Json names_in_json(const std::vector<int>& blocks, const Simulation& simulation)
   return json;
 }
 
+/// Joints that crush have their strength in limit analysis alone: the lesser of both answers stands.
+void take_crushing_limit(LimitFindings& findings, const RigidModel& model) {
+  if (std::none_of(model.points.begin(), model.points.end(), crushes)) return;
+  const LimitBracket& limit = findings.answer.released;
+  PathAnswer& path = findings.path.answer;
+  if (!limit.resolved || !limit.upper || (path.upper && *path.upper <= *limit.upper)) return;
+  path.lower = limit.lower;
+  path.upper = limit.upper;
+  path.resolved = true;
+  path.motion.reset();
+  findings.path.motion = {};
+}
+
 }  // namespace
 
 std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
@@ -268,6 +281,7 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation
                                                                             : LimitFactors{1.0, factor});
     findings.released.bars = bar_forces(analysis.model(), stands.force);
   }
+  take_crushing_limit(findings, analysis.model());
   findings.answer.interrupted = findings.answer.interrupted || findings.path.answer.interrupted;
   if (!findings.answer.interrupted)
     findings.crushing = find_crushing(analysis, findings.path.answer, scene.analysis, threads);

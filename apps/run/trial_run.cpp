@@ -111,6 +111,7 @@ void start_at_rest(const LoadedScene& scene, int threads, const RunRanks* ranks,
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing)
     status = attempted_step(rest->simulation, scene.scene.analysis.end_time);
+  rest->simulation.gather_results();
   if (status == StaticStatus::equilibrium) under_factor.start_stage(rest->simulation);
 }
 

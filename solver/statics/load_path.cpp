@@ -54,8 +54,9 @@ void LoadPath::set_strengths(double factor, double cap) {
   for (std::size_t k = 0; k < model_.points.size(); ++k) {
     const RigidPoint& point = model_.points[k];
     ConeStrength strength = strength_of(model_, point, reduced_[k] ? factor : 1.0);
-    if (!point.bar && std::isfinite(cap))
-      strength.compression = std::min(strength.compression, cap * point.area / model_.units.force());
+    // Points of springs are too few for stress blocks: joints that crush are those of limit analysis.
+    if (!point.bar) strength.compression = cap * point.area / model_.units.force();
+    if (!point.bar && !(point.area > 0.0)) strength.compression = std::numeric_limits<double>::infinity();
     program_.set_strength(k, strength);
   }
 }

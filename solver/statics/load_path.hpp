@@ -49,7 +49,7 @@ class LoadPath {
   /// Joints without force but for the pretension of bars.
   [[nodiscard]] PathState unloaded() const;
   /// From one state to rest under other factors, or to motion.
-  /// @param cap Pa, > 0, compressive strength of all joints where they have no smaller one
+  /// @param cap Pa, > 0, compressive strength of all joints, whose own one is not used
   [[nodiscard]] PathTrial to(const PathState& start, const LimitFactors& factors,
                              double cap = std::numeric_limits<double>::infinity());
 

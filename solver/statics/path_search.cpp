@@ -10,7 +10,7 @@ namespace ashlar {
 namespace {
 
 /// Shares of the associated limit at which the path is tried first.
-constexpr std::array shares = {0.5, 0.8, 0.95};
+constexpr std::array shares = {0.3, 0.5, 0.65, 0.8, 0.95};
 /// Ratio of factors where no limit is known.
 constexpr double path_stride = 1.5;
 /// Relative accuracy of the onset, and the finest one.

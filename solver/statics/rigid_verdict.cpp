@@ -34,6 +34,14 @@ bool can_tell(const BlockSystem& system, const RunState& state, double end_time)
   });
 }
 
+/// True if neither blocks nor joints have compliance.
+bool is_rigid(const BlockSystem& system, const RigidModel& model) {
+  for (std::size_t k = 0; k < system.blocks().size(); ++k)
+    if (system.moving()[k] && !system.blocks()[k].rigid()) return false;
+  return std::all_of(model.points.begin(), model.points.end(),
+                     [](const RigidPoint& point) { return point.law.rigid; });
+}
+
 void note_motion(const BlockSystem& system, RunState& state, const LimitMotion& motion) {
   StaticState& statics = state.statics;
   const std::size_t count = system.blocks().size();
@@ -142,7 +150,9 @@ StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double en
     note_motion(system, state, analysis.motion_of(trial));
     return StaticStatus::moving;
   }
-  if (status == StaticStatus::equilibrium) return status;
+  // Iterations that fail from the start are those of numbers out of range.
+  const bool tried = state.statics.iterations >= system.settings().statics.iterations;
+  if (status == StaticStatus::equilibrium || !(tried || is_rigid(system, analysis.model()))) return status;
   return verdict_of_path(system, placed, end_time, state);
 }
 

@@ -80,15 +80,19 @@ SpringStep::Response SpringStep::response(std::size_t k, const Vector3d& start, 
     return r;
   }
   r.state = limit > 0.0 || normal > 0.0 ? SpringState::slides : SpringState::open;
-  if (spring.dilation > 0.0 && slope > 0.0 && spring.shear > 0.0) {
+  if (spring.dilation > 0.0 && spring.normal > 0.0 && spring.shear > 0.0) {
     const double wedge = spring.normal * spring.dilation / spring.shear;
     const double share = 1.0 / (1.0 + strength.friction * wedge);
-    const double raised = bounded(elastic + wedge * share * (length - limit));
+    // N' is below zero where a joint has risen by its slip.
+    const double raised =
+        elastic + wedge * share * (length - strength.cohesion - strength.friction * elastic);
     if (raised > normal && raised < strength.compression) {
       by_length = wedge * share;
-      slope *= share;  // d N / d N' = 1 - friction wedge share
+      slope = share * spring.normal;  // d N / d N' = 1 - friction wedge share
       normal = raised;
       limit = strength.shear_bound(normal);
+      by_normal = strength.shear_slope(normal);
+      r.state = SpringState::slides;
       r.force[0] = normal;
       r.tangent(0, 0) = slope;
     }

@@ -57,8 +57,13 @@ TEST_F(CrushingRun, ALoadFactorHasTheLeverArmOfTheStressBlock) {
 }
 
 TEST_F(CrushingRun, AnAnswerSaysWhatStrengthItNeeds) {
-  // w = b - 2 V h/W at the lower end, f = W/(w t), found on the safe side by up to 3 %.
-  ASSERT_EQ(run_of(pushed_pier(""), "out"), 0) << faults_;
+  // w = b - 2 V h/W at the lower end, f = W/(w t), found on the safe side by up to 3 %. Near the limit w is as small as
+  // the accuracy of the limit.
+  write_text(scene_, pushed_pier(""));
+  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string(), "--set",
+                     "analysis.capacity.tolerance=0.1"}),
+            0)
+      << faults_;
   const nlohmann::json found = summary("out").at("load_factor");
   const double weight = 800.0 * g, force = 1000.0 * found.at("lower").get<double>();
   const double strength = weight / ((0.5 - 2.0 * force * 2.0 / weight) * 0.4);

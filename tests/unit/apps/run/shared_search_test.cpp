@@ -188,8 +188,13 @@ TEST(SharedSearch, BlocksThatMoveBeforeJointsFailHaveTheirAccelerations) {
     const nlohmann::json found = answer(scene, ranks).at("factor_of_safety");
     const double expected = 2.538 - 9.474 * std::tan(M_PI / 6.0) / found.at("upper").get<double>();
     ASSERT_EQ(found.at("accelerations").size(), 7U);
-    for (const nlohmann::json& acceleration : found.at("accelerations"))
-      EXPECT_NEAR(acceleration.at(0).get<double>(), expected, 1e-3 * expected) << ranks;
+    // Forces that bricks have on each other at rest change their own accelerations, not those of all.
+    double sum = 0.0;
+    for (const nlohmann::json& acceleration : found.at("accelerations")) {
+      EXPECT_NEAR(acceleration.at(0).get<double>(), expected, 1e-2 * expected) << ranks;
+      sum += acceleration.at(0).get<double>();
+    }
+    EXPECT_NEAR(sum / 7.0, expected, 1e-3 * expected) << ranks;
   }
 }
 
@@ -222,8 +227,9 @@ bond_strength = 2e5
     const nlohmann::json summary = answer(scene, ranks, [&](ashlar::Run& run, bool first) {
       if (first) run.observe(std::make_shared<BoltRecord>(axial));
     });
-    EXPECT_LT(summary.at("factor_of_safety").at("lower").get<double>(), 1.001 * sliding);
-    EXPECT_GT(summary.at("factor_of_safety").at("upper").get<double>(), 0.999 * sliding);
+    // Along the path the bolt that stretches presses the upper bricks on it.
+    EXPECT_NEAR(summary.at("factor_of_safety").at("released").get<double>(), sliding, 0.01 * sliding);
+    EXPECT_GT(summary.at("factor_of_safety").at("lower").get<double>(), 2.0 * sliding);
     return std::pair(axial, summary.at("factor_of_safety"));
   };
   const auto [axial, found] = forces(1);

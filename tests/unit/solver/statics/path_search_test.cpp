@@ -34,6 +34,7 @@ LimitScene pushed_wall(const std::vector<BoxOfWall>& boxes, double friction) {
     scene.add(std::to_string(k), Polyhedron(make_box(boxes[k].low, boxes[k].high)));
     const Vector3 size = boxes[k].high - boxes[k].low;
     Load load;
+    load.traction = false;
     load.where = Vector3(0.5 * (boxes[k].low + boxes[k].high));
     load.vector = Vector3(rock.density * size.prod() * g, 0.0, 0.0);
     scene.blocks.back().loads.push_back(load);

@@ -13,11 +13,11 @@ using test_support::g;
 /// normal and two tangents.
 class OnePoint {
  public:
-  OnePoint(const ConeStrength& strength, double dilation = 0.0)
+  explicit OnePoint(const ConeStrength& strength, double dilation = 0.0)
       : program_({3}, {{{0, -1}, 0, 1}}, {point_of(strength)}, 1),
         step_(program_, {{stiffness, shear_stiffness, dilation}}) {}
 
-  static constexpr double stiffness = 100.0, shear_stiffness = 40.0, inertia = 1e-6;
+  static constexpr double stiffness = 100.0, shear_stiffness = 40.0, inertia = 1e-4;
 
   [[nodiscard]] SpringSolution under(double normal, double shear, double before = 0.0) {
     BodyVelocity load = BodyVelocity::Zero();
@@ -42,10 +42,10 @@ TEST(SpringStep, SticksWithTheStiffnessOfItsSprings) {
   const SpringSolution found = one.under(2.0, 0.6);
   ASSERT_TRUE(found.converged);
   EXPECT_EQ(found.states[0], SpringState::sticks);
-  EXPECT_NEAR(found.force[0][0], 2.0, 1e-7);
-  EXPECT_NEAR(found.force[0][1], -0.6, 1e-7);
-  EXPECT_NEAR(found.moved[0][0], -2.0 / OnePoint::stiffness, 1e-9);
-  EXPECT_NEAR(found.moved[0][1], 0.6 / OnePoint::shear_stiffness, 1e-9);
+  EXPECT_NEAR(found.force[0][0], 2.0, 1e-5);
+  EXPECT_NEAR(found.force[0][1], -0.6, 1e-5);
+  EXPECT_NEAR(found.moved[0][0], -2.0 / OnePoint::stiffness, 1e-7);
+  EXPECT_NEAR(found.moved[0][1], 0.6 / OnePoint::shear_stiffness, 1e-7);
 }
 
 TEST(SpringStep, SlidesAtItsFrictionLimitAgainstInertia) {
