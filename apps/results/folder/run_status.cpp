@@ -84,7 +84,8 @@ std::string describe_displaced(const Simulation& simulation) {
                                 simulation.blocks()[static_cast<std::size_t>(block)].name(), distance));
   }
   if (simulation.rests_rigidly())
-    return "equilibrium of rigid blocks, loaded slowly: the iteration for blocks that deform did not converge; forces of "
+    return "equilibrium of rigid blocks, loaded slowly: the iteration for blocks that deform did not "
+           "converge; forces of "
            "joints are those of rigid blocks on springs, and blocks have no stress";
   return names.empty()
              ? ""

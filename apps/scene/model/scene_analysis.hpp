@@ -93,7 +93,7 @@ struct SceneAnalysis {
   /// m, > 0, of types safety and capacity: blocks that yield by more do not stand; empty: a hundredth of the size of the
   /// smallest block that can move
   std::optional<double> allowed_displacement;
-  std::optional<double> memory_limit;          ///< bytes, > 0, largest estimated memory; empty: auto
+  std::optional<double> memory_limit;  ///< bytes, > 0, largest estimated memory; empty: auto
 };
 
 }  // namespace ashlar
