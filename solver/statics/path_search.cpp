@@ -18,6 +18,8 @@ constexpr double onset_accuracy = 0.01;
 constexpr int most_path_trials = 60;
 /// Trials and ratio of the compressive strengths between which the least one is.
 constexpr int most_strengths = 14;
+/// Bodies up to which the compressive strength is searched: each trial lets joints yield point by point.
+constexpr std::size_t most_bodies_of_strength = 40;
 constexpr double strength_accuracy = 1.05;
 /// Strength factor at the start of the path: with ten times their strength joints neither slide nor tear, unless blocks
 /// would wedge at any friction that there is.
@@ -43,7 +45,8 @@ class PathSearch {
     answer_.resolved = is_resolved();
     if (answer_.lower) answer_.displacement = rest_.rbegin()->second.end.displacement;
     if (!answer_.interrupted) find_onset();
-    if (!answer_.interrupted && answer_.lower) find_strength();
+    const bool few = path_.model().bodies.size() <= most_bodies_of_strength;
+    if (!answer_.interrupted && answer_.lower && few) find_strength();
     return std::move(answer_);
   }
 

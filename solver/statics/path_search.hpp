@@ -28,7 +28,7 @@ struct PathAnswer {
   double onset_displacement = 0.0;    ///< m
   std::vector<PairKey> onset_joints;  ///< blocks of the joints that yield there
   /// Pa, compressive strength with which all joints still bear `lower`, within 5 %: it falls from where no point reaches
-  /// it, pressure at the points of springs. 0: nothing is pressed, or there is no `lower`
+  /// it, pressure at the points of springs. 0: nothing is pressed, there is no `lower`, or there are more than 40 bodies
   double least_strength = 0.0;
   PairKey strength_joint = {-1, -1};  ///< blocks of the joint that needs it
   std::optional<LimitTrial> motion;   ///< of `upper`, in the model of the path

@@ -61,7 +61,7 @@ TEST_F(CrushingRun, AnAnswerSaysWhatStrengthItNeeds) {
   // the accuracy of the limit.
   write_text(scene_, pushed_pier(""));
   ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string(), "--set",
-                     "analysis.capacity.tolerance=0.1"}),
+                     "analysis.capacity.tolerance=0.03"}),
             0)
       << faults_;
   const nlohmann::json found = summary("out").at("load_factor");
