@@ -21,7 +21,7 @@ std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>
   return ExpectedFactor{*path.lower, *path.upper};
 }
 
-/// What the first rank finds for all.
+/// Answer of the first rank for all.
 struct FoundLimits {
   LimitFindings limits;
   std::vector<RigidDisplacement> drawn;

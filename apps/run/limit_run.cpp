@@ -140,10 +140,10 @@ void take_crushing_limit(LimitFindings& findings, const RigidModel& model) {
   if (std::none_of(model.points.begin(), model.points.end(), crushes)) return;
   const LimitBracket& limit = findings.answer.released;
   PathAnswer& path = findings.path.answer;
-  if (!limit.resolved || !limit.upper || (path.upper && *path.upper <= *limit.upper)) return;
+  if (limit.lower && path.lower && *path.lower <= *limit.lower) return;
   path.lower = limit.lower;
   path.upper = limit.upper;
-  path.resolved = true;
+  path.resolved = limit.resolved;
   path.motion.reset();
   findings.path.motion = {};
 }

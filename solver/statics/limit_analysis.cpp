@@ -25,7 +25,7 @@ double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocit
   return sum;
 }
 
-/// What a programme's answer proves.
+/// Outcome that a programme's answer proves.
 LimitOutcome outcome_of(const ConeAnswer& found, const std::vector<BodyVelocity>& load, std::size_t bodies) {
   const double motion = largest_motion(found.velocity, load, bodies);
   if (!(found.residual < 0.1 * still)) return LimitOutcome::unknown;
