@@ -42,10 +42,12 @@ TrialRun::TrialRun(const LoadedScene& scene, double factor, int threads, const R
 bool TrialRun::has_yielded() const {
   constexpr double allowed_share = 0.01;
   const Simulation& simulation = built_->simulation;
+  // Where the load level began: a restored trial knows it too.
+  const std::vector<Eigen::MatrixX3d> rest = simulation.snapshot().run.statics.level_start;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     const BlockModel& block = simulation.blocks()[k];
     if (block.fixed() || block.driven() || !simulation.system().owns(static_cast<int>(k))) continue;
-    const Eigen::MatrixX3d& start = rest_.empty() ? block.initial_state().position : rest_[k];
+    const Eigen::MatrixX3d& start = rest.empty() ? block.initial_state().position : rest[k];
     const double allowed =
         scene_.scene.analysis.allowed_displacement.value_or(allowed_share * block_size(block));
     if (mean_motion(block, simulation.states()[k].position - start) > allowed) return true;
@@ -63,7 +65,6 @@ bool TrialRun::leave_rest() {
   }
   next->simulation.start_stage(built_->simulation);
   built_ = std::move(next);
-  for (const BlockState& state : built_->simulation.states()) rest_.push_back(state.position);
   built_->simulation.gather_results();
   changes_.forget();
   return true;
@@ -79,7 +80,7 @@ bool TrialRun::iterate() {
   }
   if (!at_factor_ && status == StaticStatus::equilibrium) return leave_rest();
   result_ = FactorTrial{factor_, outcome_of(status, simulation), simulation.steps()};
-  if (any_of_run(simulation.system(), result_->outcome == TrialOutcome::stands && has_yielded()))
+  if (any_of_run(simulation.system(), has_yielded()) && result_->outcome == TrialOutcome::stands)
     result_->outcome = TrialOutcome::moves;
   if (result_->outcome == TrialOutcome::unknown) reason_ = describe_unconverged(simulation, changes_);
   return false;

@@ -37,7 +37,7 @@ class TrialRun {
   void restore(const RunCheckpoint& state);
 
  private:
-  /// True if a block has gone further than allowed from the state at rest, or of a restored trial from its placement.
+  /// True if a block has gone further than allowed from the state at rest. Collective.
   [[nodiscard]] bool has_yielded() const;
   /// Goes on from the state at rest under the factor. @return false if blocks cannot be built
   bool leave_rest();
@@ -46,9 +46,8 @@ class TrialRun {
   int threads_;
   const RunRanks* ranks_;
   double factor_;
-  double end_time_;                     ///< s, of the loads
-  bool at_factor_ = false;              ///< true: under the factor, false: under the first loads
-  std::vector<Eigen::MatrixX3d> rest_;  ///< by block, positions at rest; empty: not known
+  double end_time_;         ///< s, of the loads
+  bool at_factor_ = false;  ///< true: under the factor, false: under the first loads
   std::optional<BuiltSimulation> built_;
   ContactChanges changes_;
   std::optional<FactorTrial> result_;
