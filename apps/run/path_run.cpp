@@ -17,9 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of the size of a block, unless the scene has an allowed displacement.
-constexpr double allowed_share = 0.01;
-
 /// Allowed displacement by body, m.
 std::vector<double> allowed_displacements(const Scene& scene, const Simulation& simulation,
                                           const RigidModel& model) {
@@ -27,8 +24,8 @@ std::vector<double> allowed_displacements(const Scene& scene, const Simulation& 
   for (const RigidBody& body : model.bodies) {
     double least = std::numeric_limits<double>::infinity();
     for (const int block : body.blocks)
-      least =
-          std::min(least, allowed_share * block_size(simulation.blocks()[static_cast<std::size_t>(block)]));
+      least = std::min(least, allowed_displacement_share *
+                                  block_size(simulation.blocks()[static_cast<std::size_t>(block)]));
     if (!body.blocks.empty()) least = scene.analysis.allowed_displacement.value_or(least);
     allowed.push_back(least);
   }

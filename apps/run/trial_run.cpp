@@ -5,16 +5,17 @@
 #include "apps/run/factor_analysis.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
+#include "solver/statics/load_path.hpp"
 #include "solver/step/agreement.hpp"
 
 namespace ashlar {
 
 namespace {
 
-/// Factors of the state at rest, from which the path begins.
-TrialFactors first_factors(const SceneAnalysis& analysis) {
-  constexpr double nothing_slides = 0.1, no_load = 0.0;
-  return analysis.type == SceneAnalysis::Type::safety ? TrialFactors{nothing_slides, 1.0}
+/// Factors of the state at rest, from which the path to a factor begins.
+TrialFactors first_factors(const SceneAnalysis& analysis, double factor) {
+  constexpr double first_share = 0.5, no_load = 0.0;
+  return analysis.type == SceneAnalysis::Type::safety ? TrialFactors{first_share * factor, 1.0}
                                                       : TrialFactors{1.0, no_load};
 }
 
@@ -32,7 +33,7 @@ TrialRun::TrialRun(const LoadedScene& scene, double factor, int threads, const R
       ranks_(ranks),
       factor_(factor),
       end_time_(scene.scene.analysis.end_time),
-      built_(built_under(first_factors(scene.scene.analysis), scene, threads, ranks)) {
+      built_(built_under(first_factors(scene.scene.analysis, factor), scene, threads, ranks)) {
   if (built_)
     built_->simulation.gather_results();
   else
@@ -40,7 +41,6 @@ TrialRun::TrialRun(const LoadedScene& scene, double factor, int threads, const R
 }
 
 bool TrialRun::has_yielded() const {
-  constexpr double allowed_share = 0.01;
   const Simulation& simulation = built_->simulation;
   // Where the load level began: a restored trial knows it too.
   const std::vector<Eigen::MatrixX3d> rest = simulation.snapshot().run.statics.level_start;
@@ -49,7 +49,7 @@ bool TrialRun::has_yielded() const {
     if (block.fixed() || block.driven() || !simulation.system().owns(static_cast<int>(k))) continue;
     const Eigen::MatrixX3d& start = rest.empty() ? block.initial_state().position : rest[k];
     const double allowed =
-        scene_.scene.analysis.allowed_displacement.value_or(allowed_share * block_size(block));
+        scene_.scene.analysis.allowed_displacement.value_or(allowed_displacement_share * block_size(block));
     if (mean_motion(block, simulation.states()[k].position - start) > allowed) return true;
   }
   return false;
@@ -105,9 +105,10 @@ void TrialRun::restore(const RunCheckpoint& state) {
   changes_ = state.changes;
 }
 
-void start_at_rest(const LoadedScene& scene, int threads, const RunRanks* ranks, Simulation& under_factor) {
+void start_at_rest(const LoadedScene& scene, double factor, int threads, const RunRanks* ranks,
+                   Simulation& under_factor) {
   std::optional<BuiltSimulation> rest =
-      built_under(first_factors(scene.scene.analysis), scene, threads, ranks);
+      built_under(first_factors(scene.scene.analysis, factor), scene, threads, ranks);
   if (!rest) return;
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing)

@@ -23,6 +23,9 @@
 
 namespace ashlar {
 
+/// Allowed displacement over the size of a block (block_size()), if none is given.
+inline constexpr double allowed_displacement_share = 0.01;
+
 /// Forces of joints, and the way from the start of the path.
 struct PathState {
   std::vector<Eigen::Vector3d> force;  ///< by point, in units of the model

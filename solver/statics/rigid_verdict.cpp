@@ -93,12 +93,11 @@ StaticStatus verdict_on_level(const BlockSystem& system, RunState& state, Static
 
 /// Displacements from which on blocks are not at rest where they are placed, by body, m.
 std::vector<double> displacements_of_rest(const BlockSystem& system, const RigidModel& model) {
-  constexpr double share = 0.01;
   std::vector<double> allowed;
   for (const RigidBody& body : model.bodies) {
     double least = std::numeric_limits<double>::infinity();
     for (const int block : body.blocks)
-      least = std::min(least, share * block_size(system.blocks()[at(block)]));
+      least = std::min(least, allowed_displacement_share * block_size(system.blocks()[at(block)]));
     allowed.push_back(least);
   }
   return allowed;
