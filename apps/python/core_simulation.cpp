@@ -60,10 +60,11 @@ struct ContactRow {
   std::int32_t type, state;
 };
 
-ContactRow row_of(const PairRecord& pair, std::size_t k, ContactState state) {
+/// @param origin Scene::origin
+ContactRow row_of(const PairRecord& pair, std::size_t k, ContactState state, const Vector3& origin) {
   const ContactPoint& point = pair.points[k];
   const PointResponse& response = pair.responses[k];
-  const Vector3 place = 0.5 * (point.place_a + point.place_b);
+  const Vector3 place = origin + 0.5 * (point.place_a + point.place_b);
   const Vector3 force = out_of_frame(point, response.force);
   ContactRow row{};
   row.a = pair.a;
@@ -125,7 +126,8 @@ class CoreSimulation {
       std::vector<ContactRow> found;
       for (const PairRecord& pair : run.simulation().contacts()) {
         const std::vector<ContactState> states = shown_states(run.simulation(), pair);
-        for (std::size_t k = 0; k < pair.points.size(); ++k) found.push_back(row_of(pair, k, states[k]));
+        for (std::size_t k = 0; k < pair.points.size(); ++k)
+          found.push_back(row_of(pair, k, states[k], run.whole().origin));
       }
       return found;
     });
@@ -208,7 +210,11 @@ struct CoreBlock {
   }
 
   [[nodiscard]] py::array_t<double> vertices() const {
-    return array_of(of_model([](const BlockModel& block) { return block.solid().mesh().points; }));
+    return array_of(of->with_run([&](const Run& run) {
+      std::vector<Vector3> corners = run.simulation().blocks()[at(index)].solid().mesh().points;
+      for (Vector3& corner : corners) corner += run.whole().origin;
+      return corners;
+    }));
   }
 
   [[nodiscard]] py::array_t<int> triangles() const {
@@ -261,8 +267,9 @@ its motion and stress raise RuntimeError; its shape, volume and mass stay availa
                              "Volume of the undeformed block, m^3.")
       .def_property_readonly("mass", of_block([](const BlockModel& b) { return b.mass(); }),
                              "kg; 0 if fixed.")
-      .def_property_readonly("coefficients", &CoreBlock::coefficients,
-                             "Coefficients of the position, (p, 3), m^5/2.")
+      .def_property_readonly(
+          "coefficients", &CoreBlock::coefficients,
+          "Coefficients of the position, (p, 3), m^5/2, relative to the origin of the model.")
       .def_property_readonly("vertices", &CoreBlock::vertices,
                              "Corners of the placed, undeformed block, (n, 3), m.")
       .def_property_readonly("triangles", &CoreBlock::triangles,

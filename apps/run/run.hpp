@@ -108,7 +108,7 @@ class Run {
   /// @throws std::logic_error with its name and that of the stage if it is absent: its state has no meaning
   void require_present(int index) const;
   /// Present motion of points of a block: place (m), displacement (m), velocity (m/s), Cauchy stress (Pa, tension
-  /// positive).
+  /// positive). Places and points are in the user's coordinates, those of simulation() relative to whole().origin.
   /// @param points m, of the placed, undeformed block, see BlockPoints
   /// @throws std::out_of_range; std::logic_error as require_present; std::domain_error if a point is refused
   [[nodiscard]] std::vector<PointMotion> motions(int index, const std::vector<Vector3>& points,

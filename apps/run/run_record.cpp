@@ -45,8 +45,13 @@ std::vector<PointMotion> Run::motions(int index, const std::vector<Vector3>& poi
                                       OutsidePoints outside) const {
   require_present(index);
   const BlockModel& model = simulation().blocks()[at(index)];
-  if (outside == OutsidePoints::refused) points_->require(index, model, points);
-  return model.motions_of(simulation().states()[at(index)], points);
+  const Vector3& origin = whole().origin;
+  std::vector<Vector3> of_model = points;
+  for (Vector3& point : of_model) point -= origin;
+  if (outside == OutsidePoints::refused) points_->require(index, model, of_model, origin);
+  std::vector<PointMotion> motions = model.motions_of(simulation().states()[at(index)], of_model);
+  for (PointMotion& motion : motions) motion.place += origin;
+  return motions;
 }
 
 PointMotion Run::motion(const std::string& name, const Vector3& point, OutsidePoints outside) const {
@@ -215,6 +220,7 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
     summary["error"] = error_summary(simulation(), errors);
   if (!measure_errors_.empty()) add_measure_errors(scene(), measure_errors_, summary["error"]);
   add_answer(summary, answer_, whole().analysis, simulation());
+  add_origin(summary, whole().origin);
   return json_text(summary, 2) + "\n";
 }
 

@@ -54,8 +54,10 @@ struct PolygonSoup {
 
 /// @}
 
-/// All bytes of a mesh file. @throws MeshFileError
-[[nodiscard]] std::string read_mesh_bytes(const std::filesystem::path& path);
+/// All bytes of a mesh file. @param what name of the file for messages: other models are read likewise
+/// @throws MeshFileError
+[[nodiscard]] std::string read_mesh_bytes(const std::filesystem::path& path,
+                                          const std::string& what = "mesh file");
 
 /// The faces divided by triangulate_polygon. @throws MeshFileError if their corners are too many for that
 [[nodiscard]] TriangleMesh triangulated(PolygonSoup soup);

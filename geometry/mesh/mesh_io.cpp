@@ -37,23 +37,23 @@ const Format& format_of(const fs::path& path) {
 
 }  // namespace
 
-std::string read_mesh_bytes(const fs::path& path) {
+std::string read_mesh_bytes(const fs::path& path, const std::string& what) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw MeshFileError("mesh file does not exist", 0, 0);
-  if (!fs::is_regular_file(status)) throw MeshFileError("mesh file is not a regular file", 0, 0);
+  if (!fs::exists(status)) throw MeshFileError(what + " does not exist", 0, 0);
+  if (!fs::is_regular_file(status)) throw MeshFileError(what + " is not a regular file", 0, 0);
   std::ifstream file;
   file.rdbuf()->pubsetbuf(nullptr, 0);  // one read of the whole file needs no buffer
   file.open(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = file.tellg();
-  if (size < 0) throw MeshFileError("mesh file cannot be read", 0, 0);
+  if (size < 0) throw MeshFileError(what + " cannot be read", 0, 0);
   if (size > std::numeric_limits<int>::max()) {
-    throw MeshFileError("mesh file of " + std::to_string(size) + " bytes, allowed up to 2 GiB", 0, 0);
+    throw MeshFileError(what + " of " + std::to_string(size) + " bytes, allowed up to 2 GiB", 0, 0);
   }
-  if (size == 0) throw MeshFileError("mesh file is empty", 0, 0);
+  if (size == 0) throw MeshFileError(what + " is empty", 0, 0);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   file.seekg(0);
-  if (!file.read(bytes.data(), size)) throw MeshFileError("mesh file cannot be read", 0, 0);
+  if (!file.read(bytes.data(), size)) throw MeshFileError(what + " cannot be read", 0, 0);
   return bytes;
 }
 

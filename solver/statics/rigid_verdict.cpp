@@ -149,6 +149,10 @@ StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double en
     note_motion(system, state, analysis.motion_of(trial));
     return StaticStatus::moving;
   }
+  if (status == StaticStatus::moving) {
+    state.statics.moving = false;
+    return StaticStatus::not_converged;
+  }
   // Iterations that fail from the start are those of numbers out of range.
   const bool tried = state.statics.iterations >= system.settings().statics.iterations;
   if (status == StaticStatus::equilibrium || !(tried || is_rigid(system, analysis.model()))) return status;

@@ -5,6 +5,9 @@
 // An analysis without a result that no motion from rest decides is decided by the load path (load_path.hpp): rigid blocks
 // on the springs of their joints, loaded slowly from no forces, come to rest or not.
 //
+// Motion that contacts or compliance oppose is confirmed by a motion of rigid blocks, or it is none: a block that sinks into
+// a soft one, or sways on it, goes as far as one that slides (notes/when_statics_end.md).
+//
 // It applies if rigid blocks are decisive: joints keep their strength when they slide, loads are constant, no support
 // moves, and neither stress of the ground nor an earlier equilibrium under other loads may have left forces. If loads
 // have changed, it states for an analysis without a result if they are beyond what any forces balance, or at that limit.
@@ -17,7 +20,8 @@
 namespace ashlar {
 
 /// Records the motion found by limit analysis for moving_blocks(), or the forces of rigid blocks at rest and their places.
-/// @param status equilibrium or not_converged. @return moving, or the same status
+/// @param status of the analysis. @return moving, or the same status; not_converged for a motion that rigid blocks do not
+/// have
 [[nodiscard]] StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double end_time,
                                          StaticStatus status);
 

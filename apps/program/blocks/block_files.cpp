@@ -40,7 +40,7 @@ UnstructuredGrid block_grid(const BlockReport& report, const std::vector<Removab
     if (!report.is_there(k)) continue;
     const TriangleMesh& mesh = loaded.solids[k].mesh();
     const int first = static_cast<int>(grid.points.size());
-    grid.points.insert(grid.points.end(), mesh.points.begin(), mesh.points.end());
+    for (const Vector3& point : mesh.points) grid.points.emplace_back(loaded.scene.origin + point);
     for (const auto& [a, b, c] : mesh.triangles) {
       grid.add_cell(VtkCellType::triangle, std::array{first + a, first + b, first + c});
       block.push_back(static_cast<std::int32_t>(k));
@@ -67,8 +67,10 @@ std::string block_obj(const LoadedScene& loaded) {
     const TriangleMesh& mesh = loaded.solids[k].mesh();
     const std::string name = word_of(loaded.scene.block[k].name);
     fmt::format_to(out, "o {}\ng {}\n", name, name);
-    for (const Vector3& point : mesh.points)
+    for (const Vector3& of_model : mesh.points) {
+      const Vector3 point = loaded.scene.origin + of_model;
       fmt::format_to(out, "v {} {} {}\n", point.x(), point.y(), point.z());
+    }
     for (const auto& [a, b, c] : mesh.triangles)
       fmt::format_to(out, "f {} {} {}\n", first + static_cast<std::size_t>(a),
                      first + static_cast<std::size_t>(b), first + static_cast<std::size_t>(c));
@@ -89,8 +91,10 @@ std::string block_stl(const LoadedScene& loaded) {
       const auto corner = [&](std::size_t i) -> const Vector3& { return mesh.points[at(triangle[i])]; };
       const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
       fmt::format_to(out, "facet normal {} {} {}\nouter loop\n", normal.x(), normal.y(), normal.z());
-      for (const std::size_t i : {0U, 1U, 2U})
-        fmt::format_to(out, "vertex {} {} {}\n", corner(i).x(), corner(i).y(), corner(i).z());
+      for (const std::size_t i : {0U, 1U, 2U}) {
+        const Vector3 point = loaded.scene.origin + corner(i);
+        fmt::format_to(out, "vertex {} {} {}\n", point.x(), point.y(), point.z());
+      }
       fmt::format_to(out, "endloop\nendfacet\n");
     }
     fmt::format_to(out, "endsolid {}\n", name);
@@ -109,8 +113,10 @@ std::string block_msh(const LoadedScene& loaded) {
         name.begin(), name.end(), [](unsigned char letter) { return letter < ' ' || letter == '"'; }, '_');
     fmt::format_to(std::back_inserter(names), "2 {} \"{}\"\n", k + 1, name);
     const std::size_t first = node + 1;
-    for (const Vector3& point : mesh.points)
+    for (const Vector3& of_model : mesh.points) {
+      const Vector3 point = loaded.scene.origin + of_model;
       fmt::format_to(std::back_inserter(nodes), "{} {} {} {}\n", ++node, point.x(), point.y(), point.z());
+    }
     for (const auto& triangle : mesh.triangles)
       fmt::format_to(std::back_inserter(elements), "{} 2 2 {} {} {} {} {}\n", ++element, k + 1, k + 1,
                      first + at(triangle[0]), first + at(triangle[1]), first + at(triangle[2]));

@@ -102,8 +102,10 @@ Json report_json(const BlockReport& report, const std::vector<RemovableBlock>* r
     blocks.push_back({{"name", block.name},
                       {"names", loaded.scene.rock ? Json(loaded.scene.rock->other_names[k]) : Json::array()},
                       {"volume", report.blocks()[k].volume},
-                      {"centroid", to_json(centroid_of(loaded.solids[k]))},
-                      {"box", {{"min", to_json(box.low)}, {"max", to_json(box.high)}}},
+                      {"centroid", to_json(loaded.scene.origin + centroid_of(loaded.solids[k]))},
+                      {"box",
+                       {{"min", to_json(loaded.scene.origin + box.low)},
+                        {"max", to_json(loaded.scene.origin + box.high)}}},
                       {"faces", loaded.solids[k].faces().size()},
                       {"material", block.material.empty() ? Json() : Json(block.material)},
                       {"neighbours", neighbours_json(loaded.scene, report.blocks()[k])}});

@@ -16,6 +16,13 @@ std::string short_text_of(const Vector3& vector) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0);
 }
 
+/// A place in the user's coordinates; far from their origin six digits would be those of the origin alone.
+std::string place_text_of(const Vector3& place, const Vector3& origin) {
+  if (origin.isZero(0.0)) return short_text_of(place);
+  const Vector3 there = origin + place;
+  return fmt::format("({:.12g}, {:.12g}, {:.12g})", there.x(), there.y(), there.z());
+}
+
 /// Reason for which a stage removes contacts.
 const char* reason_of(ContactStage stage) {
   switch (stage) {
@@ -66,10 +73,11 @@ std::string features_of(const ExplainedContact& contact, const Names& names) {
   return "";
 }
 
-std::string line_of(const ExplainedContact& contact, const Names& names) {
+/// @param origin Scene::origin
+std::string line_of(const ExplainedContact& contact, const Names& names, const Vector3& origin) {
   std::string line = fmt::format("  {} {}: gap {:.4g} m, area {:.4g} m^2, at {}, normal {}{}",
                                  contact.removed ? "left out" : "used    ", features_of(contact, names),
-                                 contact.gap, contact.area, short_text_of(contact.place),
+                                 contact.gap, contact.area, place_text_of(contact.place, origin),
                                  short_text_of(contact.normal), origin_of(contact.added));
   if (contact.removed) line += fmt::format("\n           because: {}", reason_of(*contact.removed));
   return line + '\n';
@@ -135,7 +143,7 @@ std::optional<PairKey> pair_by_names(const std::string& names, const Simulation&
   return std::nullopt;
 }
 
-std::string contact_report(const Simulation& simulation, const PairKey& blocks) {
+std::string contact_report(const Simulation& simulation, const PairKey& blocks, const Vector3& origin) {
   const ContactExplanation explanation = simulation.explain_contacts(blocks[0], blocks[1]);
   const Names names = {simulation.blocks()[at(blocks[0])].name(), simulation.blocks()[at(blocks[1])].name()};
   std::string text =
@@ -144,7 +152,7 @@ std::string contact_report(const Simulation& simulation, const PairKey& blocks) 
   text += fmt::format(", gaps up to {:.4g} m", explanation.reach);
   if (explanation.type) text += fmt::format(", type {}", to_string(*explanation.type));
   text += ":\n";
-  for (const ExplainedContact& contact : explanation.contacts) text += line_of(contact, names);
+  for (const ExplainedContact& contact : explanation.contacts) text += line_of(contact, names, origin);
   return text + forces_of(simulation, blocks, names);
 }
 

@@ -18,6 +18,8 @@ class Simulation;
 
 /// Report on the explanation of the present contacts (solver, run/contact_explanation.hpp) and the forces of the last
 /// step, in complete lines. Faces are numbered from 0, as in the block's mesh.
-[[nodiscard]] std::string contact_report(const Simulation& simulation, const PairKey& blocks);
+/// @param origin Scene::origin, of places
+[[nodiscard]] std::string contact_report(const Simulation& simulation, const PairKey& blocks,
+                                         const Vector3& origin = Vector3::Zero());
 
 }  // namespace ashlar

@@ -108,7 +108,7 @@ void refuse_for_ranks(const RunOptions& options, Diagnostics& diagnostics) {
     diagnostics.error({option}, fmt::format("{} on several ranks", reason));
   };
   if (options.scene == "-") refuse("SCENE", "standard input (-) cannot be read");
-  if (!options.explained_pair.empty()) refuse("--explain-contacts", "contacts cannot be explained");
+  if (options.explained_pair) refuse("--explain-contacts", "contacts cannot be explained");
 }
 
 /// Reads, checks and builds. Faults go to the diagnostics. Collective: on several ranks none builds what another could not
@@ -133,8 +133,8 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
       build_first_stage(stage_scene(scene, 0), threads, diagnostics, &preparation, ranks);
   if (!built) return prepared;
   const Run& run = prepared.run.emplace(scene, std::move(*built), RunManner{threads, false, began, ranks});
-  if (!options.explained_pair.empty())
-    prepared.explained = pair_by_names(options.explained_pair, run.simulation(), diagnostics);
+  if (options.explained_pair)
+    prepared.explained = pair_by_names(*options.explained_pair, run.simulation(), diagnostics);
   prepared.resumes = options.resume && !holds_open_search(folder, run.whole());
   // Without anything to continue from, no folder is made.
   if (prepared.resumes && !std::filesystem::exists(folder / checkpoint_name))
@@ -212,7 +212,7 @@ int go_to_end(PreparedRun& prepared, const std::filesystem::path& folder, RunPro
       if (run.status() != RunStatus::failed) throw;
     }
     if (is_first(ranks)) tell_results(run, folder, options.quiet, err);
-    if (prepared.explained) out << contact_report(run.simulation(), *prepared.explained);
+    if (prepared.explained) out << contact_report(run.simulation(), *prepared.explained, run.whole().origin);
     return exit_status_of(*run.status());
   } catch (const std::bad_alloc& error) {
     progress.finish();

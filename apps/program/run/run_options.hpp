@@ -23,7 +23,7 @@ struct RunOptions {
   int threads = 0;                     ///< >= 1; 0: not given
   bool quiet = false;                  ///< no progress output on stderr
   bool view = false;                   ///< write view.html at the end
-  std::string explained_pair;          ///< "a,b": blocks whose contacts are explained at the end; empty: none
+  std::optional<std::string> explained_pair;  ///< "a,b": blocks whose contacts are explained at the end
 };
 
 /// Declares `ashlar run`; it calls run_command (run_command.hpp).

@@ -28,6 +28,11 @@ std::size_t bins_for(const std::vector<double>& sorted) {
   return static_cast<std::size_t>(std::clamp(bins, fewest, most));
 }
 
+/// True for a column of a factor of safety or of loads.
+bool is_factor(const std::string& column) {
+  return column.starts_with("factor_of_safety.") || column.starts_with("load_factor.");
+}
+
 }  // namespace
 
 SampleStatistics statistics_of(const std::vector<std::optional<double>>& values, double limit) {
@@ -76,12 +81,12 @@ std::vector<SampleGroup> sample_groups(const std::vector<VariedKey>& keys, const
 
 std::string to_string(const SampleStatistics& statistics, const std::string& value, double limit) {
   if (statistics.count == 0) return fmt::format("{}: no sample has a value", value);
-  std::string text = fmt::format(
-      "{}: {} samples, mean {:.4g}, deviation {:.3g}, from {:.4g} to {:.4g}; {:.3g} % below {} (standard "
-      "error "
-      "{:.2g} %)",
-      value, statistics.count, statistics.mean, statistics.deviation, statistics.least, statistics.most,
-      100.0 * statistics.share_below, limit, 100.0 * statistics.share_error);
+  std::string text =
+      fmt::format("{}: {} samples, mean {:.4g}, deviation {:.3g}, from {:.4g} to {:.4g}", value,
+                  statistics.count, statistics.mean, statistics.deviation, statistics.least, statistics.most);
+  if (is_factor(value))
+    text += fmt::format("; {:.3g} % below {} (standard error {:.2g} %)", 100.0 * statistics.share_below,
+                        limit, 100.0 * statistics.share_error);
   if (statistics.missing > 0) text += fmt::format("; {} without a value are not counted", statistics.missing);
   return text;
 }

@@ -36,7 +36,7 @@ struct SampleGroup {
                                                      double limit);
 
 /// "factor_of_safety.lower: 1000 samples, mean 1.21, deviation 0.1, from 0.9 to 1.5; 3.4 % below 1 (standard error
-/// 0.6 %)"
+/// 0.6 %)". The share below the limit is that of a factor, which has failed there; of other values it means nothing.
 [[nodiscard]] std::string to_string(const SampleStatistics& statistics, const std::string& value,
                                     double limit);
 

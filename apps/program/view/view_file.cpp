@@ -74,7 +74,8 @@ std::vector<Json> list_in(const Json& table, const char* key) {
 
 /// Plane levels of water: name, stage (0: from the start; the last one of a name that has begun counts), point, normal.
 /// Levels from files have no plane.
-Json water_levels(const Json& scene) {
+/// @param origin of the page, m
+Json water_levels(const Json& scene, const Vector3& origin) {
   Json levels = Json::array();
   const auto add = [&](const Json& table, std::size_t stage) {
     for (const Json& water : list_in(table, "water")) {
@@ -83,6 +84,11 @@ Json water_levels(const Json& scene) {
           {"name", text_of(water, "name")}, {"stage", stage}, {"point", nullptr}, {"normal", nullptr}};
       for (const char* key : {"point", "normal"})
         if (level.contains(key)) entry[key] = level[key];
+      if (entry["point"].is_array() && entry["point"].size() == 3)
+        for (int axis = 0; axis < 3; ++axis) {
+          Json& coordinate = entry["point"][static_cast<std::size_t>(axis)];
+          if (coordinate.is_number()) coordinate = coordinate.get<double>() - origin[axis];
+        }
       levels.push_back(std::move(entry));
     }
   };
@@ -121,14 +127,14 @@ class Materials {
 /// long histories.
 /// @param summary from which the scene is removed
 /// @param names of the blocks of frames; empty: those of the scene
-void move_scene(Json& summary, std::vector<std::string> names, Json& page) {
+void move_scene(Json& summary, std::vector<std::string> names, const Vector3& origin, Json& page) {
   Json scene;
   if (summary.is_object() && summary.contains("scene")) {
     scene = std::move(summary["scene"]);
     summary.erase("scene");
   }
   page["analysis"] = scene.is_object() ? analysis_of(scene) : Json(nullptr);
-  page["water"] = water_levels(scene);
+  page["water"] = water_levels(scene, origin);
   page["stages"] = Json::array();
   for (const Json& stage : list_in(scene, "stage"))
     page["stages"].push_back(
@@ -179,6 +185,7 @@ Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, c
     for (int k = 0; k < 3; ++k) reference.add_float(point[k]);
   Json page = {{"name", std::filesystem::absolute(folder).lexically_normal().filename().string()},
                {"points", surface.reference.size()},
+               {"origin", {reader.origin().x(), reader.origin().y(), reader.origin().z()}},
                {"reference", reference.base64()},
                {"cells", deflated_base64({reinterpret_cast<const char*>(surface.cells.data()),
                                           surface.cells.size() * sizeof(std::int32_t)})},
@@ -189,7 +196,7 @@ Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, c
                {"few_points", most_few_points},
                {"history", history_json(folder)}};
   Json summary = summary_json(folder);
-  move_scene(summary, reader.block_names(), page);
+  move_scene(summary, reader.block_names(), reader.origin(), page);
   page["relative_to"] = relative_to(options.relative_to, summary, page["blocks"]);
   page["summary"] = std::move(summary);
   return page;

@@ -14,7 +14,9 @@
 #include "apps/program/view/packed_numbers.hpp"
 #include "apps/results/frames/grid_arrays.hpp"
 #include "apps/results/tables/history_table.hpp"
+#include "apps/scene/model/model_position.hpp"
 #include "apps/scene/toml/input_file.hpp"
+#include "geometry/boxes/box.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -150,6 +152,11 @@ void pack_points(PackedNumbers& numbers, const UnstructuredGrid& contacts) {
   numbers.add_points(contacts.points);
 }
 
+void move_to_origin(UnstructuredGrid& grid, const Vector3& origin) {
+  if (origin.isZero(0.0)) return;
+  for (Vector3& point : grid.points) point -= origin;
+}
+
 /// The folder, if it has results.
 const std::filesystem::path& checked_folder(const std::filesystem::path& folder) {
   constexpr const char* needed =
@@ -184,11 +191,13 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
   if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
   const std::filesystem::path path = stored_->file(blocks_, 0);
   UnstructuredGrid first = stored_->read(blocks_, 0);
+  origin_ = origin_for(box_of(first.points));
+  move_to_origin(first, origin_);
   block_names_ = first.block_names;
   std::optional<std::vector<std::int32_t>> fixed;
   if (has_stages(folder)) {
     for (std::size_t k = 0; k < count_; ++k) {
-      const UnstructuredGrid grid = stored_->read(blocks_, k);
+      const UnstructuredGrid grid = grid_of(blocks_, k);
       naming_the_file(stored_->file(blocks_, k), [&] { all_blocks_.add(grid); });
     }
     first = all_blocks_.whole();
@@ -199,9 +208,14 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
     surface_ = surface_of(curved_->divided(std::move(first)));
   });
   if (written("joints"))
-    surface_.water =
-        find_values<double>(stored_->read("joints", 0).cell_data, "water_pressure", 1) != nullptr;
+    surface_.water = find_values<double>(grid_of("joints", 0).cell_data, "water_pressure", 1) != nullptr;
   surface_.fixed = fixed ? *std::move(fixed) : blocks_that_never_move();
+}
+
+UnstructuredGrid ViewFrames::grid_of(const std::string& series, std::size_t frame) const {
+  UnstructuredGrid grid = stored_->read(series, frame);
+  move_to_origin(grid, origin_);
+  return grid;
 }
 
 bool ViewFrames::written(const std::string& series) const {
@@ -212,7 +226,7 @@ std::vector<std::int32_t> ViewFrames::blocks_that_never_move() const {
   std::map<std::int32_t, std::vector<Vector3>> first;
   std::set<std::int32_t> moved;
   for (std::size_t k = 0; k < count_; ++k) {
-    const UnstructuredGrid grid = stored_->read(blocks_, k);
+    const UnstructuredGrid grid = grid_of(blocks_, k);
     naming_the_file(stored_->file(blocks_, k), [&] {
       for (auto& [block, places] : places_of_order_zero(grid)) {
         const auto [known, is_new] = first.try_emplace(block, std::move(places));
@@ -230,19 +244,19 @@ ViewFrameData ViewFrames::read(std::size_t index) const {
   PackedNumbers numbers;
   const FrameTime frame = stored_->time(blocks_, index);
   Json head = {{"index", index}, {"step", frame.step}, {"time", frame.time}};
-  UnstructuredGrid blocks = stored_->read(blocks_, index);
+  UnstructuredGrid blocks = grid_of(blocks_, index);
   naming_the_file(stored_->file(blocks_, index), [&] {
     pack_blocks(numbers, curved_->divided(all_blocks_.completed(std::move(blocks))), surface_);
   });
   head["joints"] = head["corners"] = 0;
   const auto pack = [&](const char* series, auto function) {
     if (!written(series)) return;
-    const UnstructuredGrid grid = stored_->read(series, index);
+    const UnstructuredGrid grid = grid_of(series, index);
     naming_the_file(stored_->file(series, index), [&] { function(numbers, grid, head); });
   };
   pack("joints", [&](auto& to, const auto& grid, Json& of) { pack_joints(to, grid, surface_.water, of); });
   const std::filesystem::path of_contacts = stored_->file("contacts", index);
-  const UnstructuredGrid contacts = stored_->read("contacts", index);
+  const UnstructuredGrid contacts = grid_of("contacts", index);
   const bool kept = points_ == ViewPoints::all || contacts.points.size() <= most_few_points;
   naming_the_file(of_contacts, [&] { pack_links(numbers, contacts, head); });
   head["bolts"] = head["loads"] = head["supports"] = head["support_corners"] = 0;

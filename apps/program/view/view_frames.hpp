@@ -47,6 +47,9 @@ class ViewFrames {
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const ViewSurface& surface() const { return surface_; }
+  /// m, in the user's coordinates: all places are relative to it, as a page has single precision. Zero near the user's
+  /// origin (origin_for, model_position.hpp)
+  [[nodiscard]] const Vector3& origin() const { return origin_; }
   /// Names by number, of all blocks of any frame; empty: from a version without names.
   [[nodiscard]] const std::vector<std::string>& block_names() const { return block_names_; }
 
@@ -72,7 +75,11 @@ class ViewFrames {
   /// False, too, of a series that versions before did not write.
   [[nodiscard]] bool written(const std::string& series) const;
 
+  /// A frame of a series relative to the origin.
+  [[nodiscard]] UnstructuredGrid grid_of(const std::string& series, std::size_t frame) const;
+
   ViewPoints points_;
+  Vector3 origin_ = Vector3::Zero();
   std::unique_ptr<const StoredFrames> stored_;
   std::string blocks_ = "blocks";  ///< series with the surfaces of blocks
   std::size_t count_ = 0;

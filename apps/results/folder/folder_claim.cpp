@@ -123,12 +123,16 @@ FolderClaim::FolderClaim(std::filesystem::path folder, ClaimPurpose purpose)
     : folder_(std::move(folder)), marker_(folder_ / marker_name) {
   if (folder_.empty()) throw ClaimRefused("a result folder without a name (\"\"), a name is needed");
   std::error_code error;
+  if (purpose == ClaimPurpose::resume && !std::filesystem::exists(folder_, error))
+    throw ClaimRefused(fmt::format("no result folder {} to resume a run of, the folder of a run is needed",
+                                   folder_.string()));
   if (purpose != ClaimPurpose::resume) std::filesystem::create_directories(folder_, error);
   if (!error && !std::filesystem::is_directory(folder_, error) && !error)
     error = std::make_error_code(std::errc::not_a_directory);
   if (error) {
-    throw ClaimRefused(
-        fmt::format("cannot create the result folder {}: {}", folder_.string(), error.message()));
+    throw ClaimRefused(fmt::format("cannot {} the result folder {}: {}",
+                                   purpose == ClaimPurpose::resume ? "use" : "create", folder_.string(),
+                                   error.message()));
   }
   try {
     do {

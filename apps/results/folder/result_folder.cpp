@@ -67,13 +67,14 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                            const StagePlace& place)
     : folder_(emptied(std::move(folder))),
       output_(scene.output),
+      model_origin_(scene.origin),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
       actions_(drawn_actions(scene, simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       series_(series_of(scene, simulation)),
-      precision_(frame_precision(output_, simulation.blocks())),
+      precision_(frame_precision(output_, simulation.blocks(), model_origin_)),
       frames_(new_frame_files(folder_, output_.format, series_)),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
   progress_.stage = scene.stage.empty() ? 0 : place.stage;
@@ -89,6 +90,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                            const ResultFolderState& state)
     : folder_(std::move(folder)),
       output_(scene.output),
+      model_origin_(scene.origin),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
@@ -97,7 +99,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                                      history_columns(measures_, !scene.stage.empty()),
                                      state.progress.last_row_step)),
       series_(series_of(scene, simulation)),
-      precision_(frame_precision(output_, simulation.blocks())),
+      precision_(frame_precision(output_, simulation.blocks(), model_origin_)),
       frames_(resumed_frame_files(folder_, output_.format, series_, state.frames)),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
       progress_(state.progress) {
@@ -181,7 +183,10 @@ void ResultFolder::add_frame(const Simulation& simulation) {
       if (series == "blocks" && output_.solid) return shown(solid_frame, drawn_.solids);
       return shown(block_frame, drawn_.surfaces);
     };
-    set_precision(grids.emplace_back(SeriesGrid{series, grid()}).grid, series, precision_);
+    UnstructuredGrid& added = grids.emplace_back(SeriesGrid{series, grid()}).grid;
+    if (!model_origin_.isZero(0.0))
+      for (Vector3& point : added.points) point += model_origin_;
+    set_precision(added, series, precision_);
   }
   const std::uintmax_t rows = contact_rows_.size();
   add_contact_rows(simulation);

@@ -101,6 +101,7 @@ class ResultFolder {
 
   std::filesystem::path folder_;
   SceneOutput output_;
+  Vector3 model_origin_;  ///< m, Scene::origin, of the places in frames
   std::vector<Measure> measures_;
   DrawnBlocks drawn_;
   std::vector<SubFaceSurface> joint_surfaces_;

@@ -139,7 +139,28 @@ nlohmann::ordered_json json_of(const std::vector<FinishedStage>& stages, const S
   return list;
 }
 
+/// Adds to each `place` in a value, also of nested ones.
+void move_places(nlohmann::ordered_json& json, const Vector3& way) {
+  for (auto& [key, value] : json.items()) {
+    if (key == "place" && value.is_array() && value.size() == 3) {
+      for (int axis = 0; axis < 3; ++axis) {
+        auto& coordinate = value.at(static_cast<std::size_t>(axis));
+        coordinate = coordinate.get<double>() + way[axis];
+      }
+    } else if (value.is_structured()) {
+      move_places(value, way);
+    }
+  }
+}
+
 }  // namespace
+
+void add_origin(nlohmann::ordered_json& summary, const Vector3& origin) {
+  if (origin.isZero(0.0)) return;
+  for (auto& [key, value] : summary.items())
+    if (key != "scene" && value.is_structured()) move_places(value, origin);
+  summary["origin"] = {origin.x(), origin.y(), origin.z()};
+}
 
 BrokenJoints broken_joints(const Simulation& simulation) {
   BrokenJoints broken;

@@ -13,6 +13,10 @@ namespace ashlar {
 [[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& identity,
                                                  const BuiltSimulation& built, const RunOutcome& outcome);
 
+/// From places of the model to the user's coordinates, in all parts of a summary but its scene; the key `origin` has the
+/// origin. @param origin m, Scene::origin; zero: nothing changes
+void add_origin(nlohmann::ordered_json& summary, const Vector3& origin);
+
 /// Joints that have failed since the start of the run.
 struct BrokenJoints {
   int pairs = 0;         ///< pairs of blocks with failed area

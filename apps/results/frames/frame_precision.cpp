@@ -14,7 +14,8 @@ constexpr double rounding = std::numeric_limits<float>::epsilon() / 2.0;
 
 }  // namespace
 
-FramePrecision frame_precision(const SceneOutput& output, const std::vector<BlockModel>& blocks) {
+FramePrecision frame_precision(const SceneOutput& output, const std::vector<BlockModel>& blocks,
+                               const Vector3& origin) {
   const bool automatic = output.precision == SceneOutput::Precision::automatic;
   if (output.precision == SceneOutput::Precision::of_double ||
       (automatic && output.format == SceneOutput::Format::vtu))
@@ -25,7 +26,7 @@ FramePrecision frame_precision(const SceneOutput& output, const std::vector<Bloc
     if (block.incremental() != nullptr) return precision;
     smallest = std::min(smallest, block_size(block));
     for (const Vector3& point : block.solid().mesh().points)
-      farthest = std::max(farthest, point.cwiseAbs().maxCoeff());
+      farthest = std::max(farthest, (origin + point).cwiseAbs().maxCoeff());
   }
   if (rounding * farthest <= most_shift * smallest) precision.places = StoredReal::float32;
   return precision;

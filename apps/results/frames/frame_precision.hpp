@@ -21,8 +21,9 @@ struct FramePrecision {
 /// @return with "single", and with "auto" in results.vtkhdf, fields of single precision; places too if that moves none of
 /// the blocks' corners by more than 1e-4 of the size of the smallest block (block_size), and none is incremental: their
 /// shape is not that of the start if the run goes on from a checkpoint.
-[[nodiscard]] FramePrecision frame_precision(const SceneOutput& output,
-                                             const std::vector<BlockModel>& blocks);
+/// @param origin of the model, Scene::origin
+[[nodiscard]] FramePrecision frame_precision(const SceneOutput& output, const std::vector<BlockModel>& blocks,
+                                             const Vector3& origin = Vector3::Zero());
 
 /// Declares how a grid is to be stored. @param series its name
 void set_precision(UnstructuredGrid& grid, const std::string& series, const FramePrecision& precision);

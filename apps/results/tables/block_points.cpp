@@ -16,13 +16,15 @@ std::shared_ptr<const ClosestPointFinder> BlockPoints::finder_of(int number, con
   return finder;
 }
 
-void BlockPoints::require(int number, const BlockModel& block, const std::vector<Vector3>& points) const {
+void BlockPoints::require(int number, const BlockModel& block, const std::vector<Vector3>& points,
+                          const Vector3& origin) const {
   const std::shared_ptr<const ClosestPointFinder> finder = finder_of(number, block.solid());
   const double allowed = allowed_offset(block.solid());
   for (const Vector3& point : points) {
     const auto refuse = [&](const std::string& why) {
-      throw std::domain_error(fmt::format("point ({:.9g}, {:.9g}, {:.9g}) is not of block {}: {}", point.x(),
-                                          point.y(), point.z(), block.name(), why));
+      const Vector3 given = origin + point;
+      throw std::domain_error(fmt::format("point ({:.9g}, {:.9g}, {:.9g}) is not of block {}: {}", given.x(),
+                                          given.y(), given.z(), block.name(), why));
     };
     if (!point.allFinite()) refuse("finite coordinates are needed");
     const ClosestPoint nearest = finder->find_any(point);

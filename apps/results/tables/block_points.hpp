@@ -20,8 +20,10 @@ class BlockPoints {
   /// Points of a block are inside, on its surface, or within allowed_offset of it
   /// (mechanics/supports/face_selection.hpp), as the points of a scene: coordinates of a rotated block are rounded.
   /// @param number of the block in the run. @param points m, of the placed, undeformed block
+  /// @param origin Scene::origin, for the message
   /// @throws std::domain_error with the block, the first outside point and its distance
-  void require(int number, const BlockModel& block, const std::vector<Vector3>& points) const;
+  void require(int number, const BlockModel& block, const std::vector<Vector3>& points,
+               const Vector3& origin = Vector3::Zero()) const;
 
  private:
   [[nodiscard]] std::shared_ptr<const ClosestPointFinder> finder_of(int number,

@@ -55,6 +55,7 @@ std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockMode
     else
       measures.push_back({given.name, Measure::Kind::block, block, blocks[at(block)].basis().centroid(), -1});
   }
+  for (Measure& measure : measures) measure.origin = scene.origin;
   return measures;
 }
 
@@ -79,9 +80,12 @@ ResultNeeds needs_of(const std::vector<Measure>& measures) {
 }
 
 PointMotion measured_motion(const Simulation& simulation, const Measure& measure) {
-  if (simulation.system().present(measure.block))
-    return simulation.blocks()[at(measure.block)].motion_of(simulation.states()[at(measure.block)],
-                                                            measure.point);
+  if (simulation.system().present(measure.block)) {
+    PointMotion motion = simulation.blocks()[at(measure.block)].motion_of(
+        simulation.states()[at(measure.block)], measure.point);
+    motion.place += measure.origin;
+    return motion;
+  }
   const Vector3 nowhere = Vector3::Constant(not_measured);
   return {nowhere, nowhere, nowhere, Eigen::Matrix3d::Constant(not_measured)};
 }

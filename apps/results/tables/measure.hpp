@@ -29,6 +29,7 @@ struct Measure {
   std::string bolt = {};                             ///< for a bolt: its name
   std::shared_ptr<const DriftLevels> levels = {};    ///< for a drift, otherwise null
   std::shared_ptr<const JointPolygons> joints = {};  ///< for cracks, otherwise null
+  Vector3 origin = Vector3::Zero();                  ///< m, Scene::origin, of measured places
 };
 
 /// Measures of a scene, in its order. @param blocks of the scene
@@ -37,7 +38,7 @@ struct Measure {
 /// Results of other ranks that measures are evaluated from: states of their blocks, and contacts of measured pairs.
 [[nodiscard]] ResultNeeds needs_of(const std::vector<Measure>& measures);
 
-/// Motion of the measured point; nan if its block is absent. @param measure of a point or block
+/// Motion of the measured point, its place in the user's coordinates; nan if its block is absent. @param measure of a point or block
 [[nodiscard]] PointMotion measured_motion(const Simulation& simulation, const Measure& measure);
 
 /// Rotation of a block since it was placed: axis times angle, degrees, 0 to 180, of the rotation in the polar

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 #include <type_traits>
 
 #include "apps/scene/build/block_survey.hpp"
@@ -245,11 +247,9 @@ std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
   return depths;
 }
 
-}  // namespace
-
-std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
-                                                Diagnostics& diagnostics, Preparation* preparation,
-                                                const TrialFactors& factors, const RunRanks* ranks) {
+std::optional<BuiltSimulation> built_of(const LoadedScene& loaded, int threads, Diagnostics& diagnostics,
+                                        Preparation* preparation, const TrialFactors& factors,
+                                        const RunRanks* ranks) {
   const Scene& scene = loaded.scene;
   if (ranks != nullptr && ranks->several()) check_for_ranks(scene, diagnostics);
   if (preparation != nullptr && !scene.water.empty()) preparation->phase("pressure of water");
@@ -304,6 +304,29 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   }
   if (!bolts.empty()) built.simulation.add_bolts(std::move(bolts));
   return built;
+}
+
+}  // namespace
+
+std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
+                                                Diagnostics& diagnostics, Preparation* preparation,
+                                                const TrialFactors& factors, const RunRanks* ranks) {
+  const auto refuse = [&](const std::exception& error) {
+    // All ranks end together where one throws.
+    if (ranks != nullptr && ranks->several()) throw;
+    diagnostics.error(
+        loaded.scene.places.key(""),
+        fmt::format("no model can be made of the scene ({}), other values are needed", error.what()));
+    return std::nullopt;
+  };
+  // What the checks of scenes do not foresee. Checks name the key.
+  try {
+    return built_of(loaded, threads, diagnostics, preparation, factors, ranks);
+  } catch (const std::invalid_argument& error) {
+    return refuse(error);
+  } catch (const std::domain_error& error) {
+    return refuse(error);
+  }
 }
 
 }  // namespace ashlar

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "apps/scene/expand/scene_expansion.hpp"
+#include "apps/scene/model/model_position.hpp"
 #include "apps/scene/model/scene_names.hpp"
 #include "apps/scene/read/assignments.hpp"
 #include "apps/scene/read/block_reader.hpp"
@@ -22,6 +23,7 @@
 #include "apps/scene/read/joint_reader.hpp"
 #include "apps/scene/read/masonry.hpp"
 #include "apps/scene/read/measure_reader.hpp"
+#include "apps/scene/read/model_origin.hpp"
 #include "apps/scene/read/moving_load_reader.hpp"
 #include "apps/scene/read/region_reader.hpp"
 #include "apps/scene/read/water_reader.hpp"
@@ -217,10 +219,11 @@ void read_tables(TomlTableReader top, Scene& scene) {
   if (top.given("include"))
     top.error_at_key("include", "include cannot be set (include), files are read before anything is set");
   const bool has_blocks = !scene.block.empty() || !masonry.empty();
-  expand_blocks(scene, std::move(masonry), top.reading().diagnostics());
-  // After the analysis is complete without stages.
   scene.stage =
       top.read_tables("stage", [&](TomlTableReader& table) { return read_stage(table, scene.analysis); });
+  // Masonry is made near the origin of the model.
+  move_to_model(scene);
+  expand_blocks(scene, std::move(masonry), top.reading().diagnostics());
   if (scene.stage.empty())
     complete_times(
         analysis, scene.analysis,
@@ -244,8 +247,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   try {
     auto [document, files] = parse_document(text, start.origin, diagnostics);
     apply_overrides(document, overrides, diagnostics);
+    scene.origin = origin_of_model(document, files);
     TomlReading reading(std::move(files), diagnostics, scene.places);
     reading.set_formulas(read_parameters(document, reading));
+    reading.set_origin(scene.origin);
     read_tables(TomlTableReader(reading, document, "", ""), scene);
     reading.report_unknown_keys();
   } catch (const toml::parse_error& error) {

@@ -56,7 +56,7 @@ class BoundaryCheck {
           fmt::format(
               "boundary meets no face of a moving block (point {}, normal {}), a plane of outer faces with "
               "the normal out of the blocks is needed{}",
-              rounded_words(plane.point), rounded_words(plane.normal),
+              rounded_words(scene_.origin + plane.point), rounded_words(plane.normal),
               inward  ? "; faces in this plane have the opposite normal"
               : fixed ? "; blocks in this plane are fixed"
                       : ""));

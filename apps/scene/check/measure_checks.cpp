@@ -48,13 +48,14 @@ void check_levels(const Scene& scene, const std::vector<std::optional<Polyhedron
         reached.at(end) = reached.at(end) || reaches_level(points, up, drift.heights.at(end));
     }
     if (!(low <= high)) continue;  // its names are wrong
+    const double datum = up.dot(scene.origin);
     for (std::size_t end = 0; end < 2; ++end) {
       if (reached.at(end)) continue;
       diagnostics.error(
           scene.places.value(fmt::format("measure.{}.drift.heights", i)),
           fmt::format(
               "no block of the drift is at the {} level ({} m), its blocks reach from {:.6g} to {:.6g} m",
-              end == 0 ? "lower" : "upper", drift.heights.at(end), low, high));
+              end == 0 ? "lower" : "upper", datum + drift.heights.at(end), datum + low, datum + high));
     }
   }
 }

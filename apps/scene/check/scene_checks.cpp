@@ -258,11 +258,14 @@ class PlacementCheck {
     }
     const Vector3 outside = (low - point).cwiseMax(point - high).cwiseMax(0.0);
     if (outside.norm() <= allowed_offset(solid)) return;
+    low += scene_.origin;
+    high += scene_.origin;
     error(key,
           fmt::format("point is not in block \"{}\" ({}), a point of the placed block is needed: x {} to {}, "
                       "y {} to {}, "
                       "z {} to {}",
-                      block.name, in_words(point), low.x(), high.x(), low.y(), high.y(), low.z(), high.z()));
+                      block.name, in_words(scene_.origin + point), low.x(), high.x(), low.y(), high.y(),
+                      low.z(), high.z()));
   }
 
   void check_where(const std::string& key, const SceneBlock& block, const Polyhedron& solid,
@@ -276,13 +279,14 @@ class PlacementCheck {
     if (!plane.point.allFinite() || !plane.normal.allFinite() || plane.normal.isZero(0.0)) return;
     if (!faces_in_plane(solid, {plane.point, plane.normal}).empty()) return;
     const NearFace nearest = nearest_face(solid, plane);
-    error(key + ".plane",
-          fmt::format(
-              "no face of block \"{}\" lies in the plane (point {}, normal {}), a plane within {:.2g} m "
-              "of all corners of a face is needed; the nearest face is {:.2g} m off, its plane has "
-              "point {}, normal {}",
-              block.name, in_words(plane.point), in_words(plane.normal), allowed_offset(solid),
-              nearest.offset, in_words(nearest.plane.point), in_words(nearest.plane.normal)));
+    error(
+        key + ".plane",
+        fmt::format(
+            "no face of block \"{}\" lies in the plane (point {}, normal {}), a plane within {:.2g} m "
+            "of all corners of a face is needed; the nearest face is {:.2g} m off, its plane has "
+            "point {}, normal {}",
+            block.name, in_words(scene_.origin + plane.point), in_words(plane.normal), allowed_offset(solid),
+            nearest.offset, in_words(scene_.origin + nearest.plane.point), in_words(nearest.plane.normal)));
   }
 
  private:

@@ -79,6 +79,11 @@ SideLayers layers_beside(const Scene& scene, std::size_t side, std::size_t base,
                                   : fmt::format("its faces begin {:.3g} m above the base", limits.front());
     return result;
   }
+  if (limits.size() == 1) {
+    result.fault = fmt::format(
+        "its faces are lower than {:.3g} m, to which the largest block beside it is known", tolerance);
+    return result;
+  }
   for (std::size_t n = 0; n + 1 < limits.size(); ++n) {
     const double middle = 0.5 * (limits[n] + limits[n + 1]);
     const SideFace* largest = nullptr;

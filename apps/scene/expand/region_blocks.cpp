@@ -23,6 +23,7 @@ std::optional<Polyhedron> solid_of(const Scene& scene, const SceneShape& shape, 
   Scene alone;
   alone.file = scene.file;
   alone.block.emplace_back().shape = shape;
+  alone.block.back().shape_origin = scene.origin;
   for (const auto& [key, places] : scene.places.all())
     if (key.starts_with(path)) alone.places.record("block.0" + key.substr(path.size()), places);
   return std::move(build_solids(alone, diagnostics).front());

@@ -132,7 +132,7 @@ void replace_blocks(Scene& scene, CutRock& rock, const std::vector<std::optional
       blocks.push_back(scene.block[k]);
       continue;
     }
-    const Pieces pieces = solids_of(scene, rock, k, resolution_of(solids[k]->mesh().points), diagnostics);
+    const Pieces pieces = solids_of(scene, rock, k, resolution_of(scene.block[k], *solids[k]), diagnostics);
     if (!diagnostics.good()) continue;
     warn_of_slivers(scene, rock, k, pieces, diagnostics);
     const std::vector<std::string> names = piece_names(scene, rock, k);

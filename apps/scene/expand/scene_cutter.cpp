@@ -40,6 +40,7 @@ std::optional<Polyhedron> build_cut_solid(const Scene& scene, std::size_t index,
   Scene alone;
   alone.file = scene.file;
   alone.block.emplace_back().shape = scene.cut[index].solid;
+  alone.block.back().shape_origin = scene.origin;
   const std::string prefix = fmt::format("cut.{}.solid", index);
   for (const auto& [key, places] : scene.places.all())
     if (key.starts_with(prefix)) alone.places.record("block.0" + key.substr(prefix.size()), places);
@@ -248,7 +249,7 @@ void SceneCutter::cut_by_discs(std::size_t index, const std::vector<Target>& tar
     const CutSolid::Choice chosen = choice_of(target);
     for (std::size_t k = 0; k < discs->size(); ++k) {
       const auto& [center, dip, dip_direction, radius] = (*discs)[k];
-      const CutPlane plane{plane_normal(dip, dip_direction), center};
+      const CutPlane plane{plane_normal(dip, dip_direction), center - scene_.origin};
       solid.cut(plane, add_mark(index, static_cast<int>(k) + 1), [&, &within = radius](int piece) {
         return chosen(piece) && (!within || is_met(index, solid, piece, plane, *within));
       });

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "apps/scene/meshes/mesh_import.hpp"
+#include "apps/scene/read/analysis_json.hpp"
 #include "apps/scene/read/exact_turn.hpp"
 #include "apps/scene/read/scene_json.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
@@ -30,10 +31,14 @@ Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
   return cosine * Eigen::Matrix3d::Identity() + (1.0 - cosine) * axis * axis.transpose() + sine * cross;
 }
 
-// Scale, then rotate. Steps that are not given leave the points unchanged bit for bit.
-std::vector<Vector3> turned_points(std::vector<Vector3> points, double scale, const SceneBlock& block) {
-  if (scale != 1.0)
-    for (Vector3& point : points) point *= scale;
+// Scale, to the origin of the model, then rotate. Steps that are not given leave the points unchanged bit for bit.
+// @param mesh null: another shape
+std::vector<Vector3> turned_points(std::vector<Vector3> points, const SceneMesh* mesh,
+                                   const SceneBlock& block) {
+  if (mesh != nullptr && mesh->scale != 1.0)
+    for (Vector3& point : points) point *= mesh->scale;
+  if (mesh != nullptr && !block.shape_origin.isZero(0.0))
+    for (Vector3& point : points) point -= block.shape_origin;
   if (block.rotate) {
     const Eigen::Matrix3d matrix = rotation_matrix(*block.rotate);
     for (Vector3& point : points) point = matrix * (point - block.rotate->about) + block.rotate->about;
@@ -52,12 +57,20 @@ struct ShapeError : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
+constexpr double resolution_share = 0x1p-46;  // 64 units in the last place of the largest coordinate
+
 Polyhedron not_lost(Polyhedron solid, double resolution) {
   if (!is_lost_in_rounding(solid)) return solid;
   throw ShapeError(fmt::format(
       "shape is lost in rounding (coordinates up to {:.4g} m are known to {:.4g} m), a thicker one or one "
       "nearer to the origin is needed",
-      largest_coordinate_of(solid.mesh().points), resolution));
+      resolution / resolution_share, resolution));
+}
+
+// The points as the user gave them have the resolution.
+double resolution_about(std::vector<Vector3> points, const Vector3& origin) {
+  for (Vector3& point : points) point += origin;
+  return resolution_of(points);
 }
 
 void require_coordinates(const std::vector<Vector3>& points) {
@@ -103,12 +116,13 @@ Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
 
 struct SolidBuilder {
   const Scene& scene;
+  const SceneBlock& block;
 
   Polyhedron operator()(std::monostate) const { throw std::logic_error("block without a shape"); }
   Polyhedron operator()(const SceneBox& box) const { return Polyhedron(make_box(box.min, box.max)); }
   Polyhedron operator()(const SceneMesh& mesh) const { return build_mesh_solid(scene, mesh); }
   Polyhedron operator()(const SceneHull& hull) const {
-    const double resolution = resolution_of(hull.points);
+    const double resolution = resolution_about(hull.points, block.shape_origin);
     return not_lost(make_hull_solid(hull.points, resolution), resolution);
   }
   Polyhedron operator()(const SceneSphere& sphere) const {
@@ -121,8 +135,8 @@ struct SolidBuilder {
 Polyhedron build_shape(const Scene& scene, const SceneBlock& block) {
   const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
   try {
-    const Polyhedron own = std::visit(SolidBuilder{scene}, block.shape);
-    std::vector<Vector3> points = turned_points(own.mesh().points, mesh ? mesh->scale : 1.0, block);
+    const Polyhedron own = std::visit(SolidBuilder{scene, block}, block.shape);
+    std::vector<Vector3> points = turned_points(own.mesh().points, mesh, block);
     require_coordinates(points);
     return own.with_points(std::move(points));
   } catch (const MeshError& error) {
@@ -161,9 +175,14 @@ Place shape_place(const Scene& scene, std::size_t index) {
 }  // namespace
 
 double resolution_of(const std::vector<Vector3>& points) {
-  constexpr double share = 0x1p-46;  // 64 units in the last place of the largest
   const double largest = largest_coordinate_of(points);
-  return std::isfinite(largest) ? share * largest : 0.0;
+  return std::isfinite(largest) ? resolution_share * largest : 0.0;
+}
+
+double resolution_of(const SceneBlock& block, const Polyhedron& placed) {
+  const bool rounded =
+      std::holds_alternative<SceneHull>(block.shape) || std::holds_alternative<SceneMesh>(block.shape);
+  return resolution_about(placed.mesh().points, rounded ? block.shape_origin : Vector3(Vector3::Zero()));
 }
 
 std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnostics& diagnostics,
@@ -186,7 +205,8 @@ std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnost
     }
     const auto& keys = json.at(i);
     const std::string said = shape_key(block.shape) + keys.at(shape_key(block.shape)).dump() +
-                             (keys.contains("rotate") ? keys.at("rotate").dump() : "");
+                             (keys.contains("rotate") ? keys.at("rotate").dump() : "") +
+                             (block.shape_origin.isZero(0.0) ? "" : to_json(block.shape_origin).dump());
     try {
       auto& shape = built[said];
       if (!shape) shape = std::make_shared<const Polyhedron>(build_shape(scene, block));

@@ -16,6 +16,9 @@ namespace ashlar {
 /// by the author of the scene.
 [[nodiscard]] double resolution_of(const std::vector<Vector3>& points);
 
+/// The same of a placed block, m: of hulls and meshes in the user's coordinates, which they were rounded to.
+[[nodiscard]] double resolution_of(const SceneBlock& block, const Polyhedron& placed);
+
 /// Builds and places the shape of every block, in the scene's order. Faces are merged before placing if they are
 /// exactly flat; for meshes and hulls also if they are flat to 2^-46 of the largest coordinate (1.4e-14), so that a
 /// rotated box still has six. Without rotate a box keeps its exact corners (plus translate); rotations by multiples

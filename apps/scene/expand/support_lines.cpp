@@ -55,6 +55,8 @@ class LinesInBlocks {
                      [](const BoltSpan& a, const BoltSpan& b) { return a.start < b.start; });
     return result;
   }
+  /// Scene::origin, for messages.
+  [[nodiscard]] const Vector3& origin() const { return scene_.origin; }
   [[nodiscard]] const Polyhedron* solid(std::size_t block) const { return solids_[block]; }
   [[nodiscard]] std::size_t count() const { return solids_.size(); }
 
@@ -97,8 +99,9 @@ void find_blocks(const LinesInBlocks& blocks, SupportLine& line) {
   std::vector<BoltSpan> spans =
       parted(blocks.spans(line.from, way / length, 0.0, length), 0.1 * line.thickness);
   if (spans.empty()) {
-    line.fault = fmt::format("bolt \"{}\" meets no block (from {} to {}), a line through blocks is needed",
-                             line.name, point_in_words(line.from), point_in_words(line.to));
+    line.fault =
+        fmt::format("bolt \"{}\" meets no block (from {} to {}), a line through blocks is needed", line.name,
+                    point_in_words(blocks.origin() + line.from), point_in_words(blocks.origin() + line.to));
     return;
   }
   line.spans = std::move(spans);
@@ -128,7 +131,8 @@ void find_ends(const LinesInBlocks& blocks, const char* what, SupportLine& line)
   if (!first || !last) {
     line.fault =
         fmt::format("the end `{}` of {} \"{}\" is at no block ({}), a point on or in a block is needed",
-                    first ? "to" : "from", what, line.name, point_in_words(first ? line.to : line.from));
+                    first ? "to" : "from", what, line.name,
+                    point_in_words(blocks.origin() + (first ? line.to : line.from)));
   } else if (first->block == last->block) {
     line.fault =
         fmt::format("both ends of {} \"{}\" are at one block, two blocks are needed", what, line.name);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 std::string bytes_of(const fs::path& file) {
   try {
-    return read_mesh_bytes(file);
+    return read_mesh_bytes(file, "model");
   } catch (const MeshFileError& error) {
     throw ImportError({file.string(), error.line(), error.column()}, error.what());
   }

@@ -91,7 +91,7 @@ ImportedModel read_model(const fs::path& file) {
                     ".glb, .stl, .ply, .off",
                     file.filename().string()));
   try {
-    return format->read(read_mesh_bytes(file));
+    return format->read(read_mesh_bytes(file, "model"));
   } catch (const MeshFileError& error) {
     throw ImportError({file.string(), error.line(), error.column()}, error.what());
   }

@@ -97,7 +97,7 @@ BufferFile buffer_files_in(const fs::path& folder) {
     const fs::path file = file_below(folder, uri);
     std::shared_ptr<const std::string>& bytes = (*read)[file];
     try {
-      if (!bytes) bytes = std::make_shared<const std::string>(read_mesh_bytes(file));
+      if (!bytes) bytes = std::make_shared<const std::string>(read_mesh_bytes(file, "buffer file"));
     } catch (const MeshFileError& error) {
       throw MeshFileError(fmt::format("buffer file (\"{}\"): {}", printable(uri), error.what()), 0, 0);
     }

@@ -224,7 +224,7 @@ TriangleMesh parse_xyz_grid(std::istream& content) {
 }
 
 TriangleMesh read_height_grid(const std::filesystem::path& path) {
-  std::istringstream content(read_mesh_bytes(path));
+  std::istringstream content(read_mesh_bytes(path, "grid of heights"));
   return equal_ignoring_case(path.extension().string(), ".asc") ? parse_esri_grid(content)
                                                                 : parse_xyz_grid(content);
 }

@@ -134,6 +134,9 @@ struct SceneOutput {
 /// The whole scene.
 struct Scene {
   std::filesystem::path file;  ///< as the user named it; paths in the scene are relative to its folder
+  /// m, in the user's coordinates: all positions of the scene, its solids and its simulation are relative to it
+  /// (model_position.hpp). Zero near the user's origin
+  Vector3 origin = Vector3::Zero();
   std::string title;
   SceneAnalysis analysis;
   SceneContact contact;

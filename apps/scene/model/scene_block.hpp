@@ -72,7 +72,10 @@ struct SceneBlock {
   bool automatic_order = false;  ///< analysis.accuracy chooses a higher one: it is "auto", or not given
   SceneShape shape;              ///< exactly one of box, mesh, hull, sphere
   std::optional<SceneRotation> rotate;
-  Vector3 translate = Vector3::Zero();         ///< m, after rotate
+  Vector3 translate = Vector3::Zero();  ///< m, after rotate
+  /// m, share of Scene::origin that is subtracted from the shape and `rotate.about`, from a mesh file after its scale;
+  /// the rest of it is subtracted from `translate`
+  Vector3 shape_origin = Vector3::Zero();
   Vector3 velocity = Vector3::Zero();          ///< m/s
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
   bool fixed = false;                          ///< the whole block never moves; excludes fix, load and

@@ -11,6 +11,7 @@
 #include "apps/scene/model/support_history.hpp"
 #include "apps/scene/read/block_arrays.hpp"
 #include "apps/scene/read/history_reader.hpp"
+#include "apps/scene/read/model_origin.hpp"
 #include "apps/scene/read/required_vectors.hpp"
 
 namespace ashlar {
@@ -306,6 +307,15 @@ void keep_given_orders(Scene& scene) {
   }
 }
 
+void read_block_place(TomlTableReader& table, SceneBlock& block) {
+  block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name),
+                           MeshKeys::mending);
+  if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);
+  if (table.given("rotate") && !(block.rotate && block.rotate->axis.allFinite())) block.shape = {};
+  if (!table.read_place("translate", block.translate) && table.given("translate")) block.shape = {};
+  block.array = read_array(table);
+}
+
 SceneBlock read_block(TomlTableReader& table) {
   SceneBlock block;
   table.require("name");
@@ -313,17 +323,13 @@ SceneBlock read_block(TomlTableReader& table) {
   table.read_bool("fixed", block.fixed);
   table.read_name("material", block.material);
   read_order(table, block);
-  block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name),
-                           MeshKeys::mending);
-  if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);
-  if (table.given("rotate") && !(block.rotate && block.rotate->axis.allFinite())) block.shape = {};
-  if (!table.read_place("translate", block.translate) && table.given("translate")) block.shape = {};
+  read_block_place(table, block);
+  block.shape_origin = shape_origin_of(block, table.reading());
   table.read_vector("velocity", block.velocity);
   table.read_vector("angular_velocity", block.angular_velocity);
   block.fix = table.read_tables("fix", read_fix);
   block.load = table.read_tables("load", read_load);
   refuse_motion_if_fixed(table, block);
-  block.array = read_array(table);
   return block;
 }
 

@@ -12,6 +12,9 @@ namespace ashlar {
 /// faulty points and planes are not finite.
 [[nodiscard]] SceneBlock read_block(TomlTableReader& table);
 
+/// The part of it that says where the block is: its shape, rotate, translate and array. @param block with its name
+void read_block_place(TomlTableReader& table, SceneBlock& block);
+
 /// Reads `order`. A block without one has an automatic order until keep_given_orders.
 void read_order(TomlTableReader& table, SceneBlock& block);
 

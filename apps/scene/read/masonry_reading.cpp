@@ -16,8 +16,10 @@ bool read_optional_length(TomlTableReader& table, std::string_view key, double& 
   return table.read_number(key, length, range::positive_length) || !table.given(key);
 }
 
-bool read_optional_place(TomlTableReader& table, std::string_view key, Vector3& place) {
-  return table.read_place(key, place) || !table.given(key);
+bool read_masonry_position(TomlTableReader& table, std::string_view key, Vector3& position) {
+  const bool good = table.read_place(key, position) || !table.given(key);
+  position -= table.reading().origin();
+  return good;
 }
 
 bool read_count(TomlTableReader& table, std::string_view key, int& count, int low) {

@@ -15,7 +15,9 @@ namespace ashlar {
 /// The same for an optional key.
 [[nodiscard]] bool read_optional_length(TomlTableReader& table, std::string_view key, double& length);
 
-[[nodiscard]] bool read_optional_place(TomlTableReader& table, std::string_view key, Vector3& place);
+/// Reads the optional position of masonry. @param position in the user's coordinates, its default; becomes relative to
+/// the origin of the model
+[[nodiscard]] bool read_masonry_position(TomlTableReader& table, std::string_view key, Vector3& position);
 
 /// Reads a required number of pieces, at least `low`.
 [[nodiscard]] bool read_count(TomlTableReader& table, std::string_view key, int& count, int low);

@@ -82,7 +82,7 @@ struct Arch {
 
 std::optional<Arch> read_arch_keys(TomlTableReader& table) {
   Arch arch;
-  bool good = read_optional_place(table, "center", arch.center);
+  bool good = read_masonry_position(table, "center", arch.center);
   good = read_direction(table, arch.center, arch.turn) && good;
   const std::optional<Ring> ring = read_ring(table);
   good = read_length(table, "width", arch.width) && good;
@@ -93,6 +93,7 @@ std::optional<Arch> read_arch_keys(TomlTableReader& table) {
     arch.fill.emplace();
     for (const char* key : {"top", "weight"}) fill->require(key);
     good = fill->read_number("top", arch.fill->top, range::any_number) && good;
+    arch.fill->top -= table.reading().origin().z();
     good = fill->read_number("weight", arch.fill->weight, range::positive) && good;
   }
   if (!good || !ring) return std::nullopt;
@@ -110,8 +111,9 @@ bool check_fill(TomlTableReader& table, const Arch& arch) {
   }
   const double crown = arch.center.z() + arch.ring.outer;
   if (arch.fill->top >= crown) return true;
+  const double datum = table.reading().origin().z();
   table.error_at_key("fill", fmt::format("fill is lower than the crown (top = {} m), at least {} m is needed",
-                                         arch.fill->top, crown));
+                                         arch.fill->top + datum, crown + datum));
   return false;
 }
 
@@ -168,7 +170,7 @@ std::vector<MasonryPiece> read_column(TomlTableReader& table) {
   Vector3 center = Vector3::Zero();
   double radius = 0.0, height = 0.0;
   int sides = default_sides, drums = 0;
-  bool good = read_optional_place(table, "center", center);
+  bool good = read_masonry_position(table, "center", center);
   good = read_length(table, "radius", radius) && good;
   double top_radius = radius;
   good = read_optional_length(table, "top_radius", top_radius) && good;
@@ -196,7 +198,7 @@ std::vector<MasonryPiece> read_dome(TomlTableReader& table) {
   double from = 0.0, to = 80.0;
   int courses = 0, voussoirs = 0;
   bool keystone = true;
-  bool good = read_optional_place(table, "center", center);
+  bool good = read_masonry_position(table, "center", center);
   const std::optional<Ring> ring = read_ring(table);
   good = (table.read_number("from", from, turn_range) || !table.given("from")) && good;
   good = (table.read_number("to", to, turn_range) || !table.given("to")) && good;

@@ -167,7 +167,7 @@ class Bricklayer {
 
 std::optional<Wall> read_wall_keys(TomlTableReader& table) {
   Wall wall;
-  bool good = read_optional_place(table, "origin", wall.origin);
+  bool good = read_masonry_position(table, "origin", wall.origin);
   good = read_direction(table, wall.origin, wall.turn) && good;
   good = read_length(table, "length", wall.size.x()) && good;
   good = read_length(table, "height", wall.size.z()) && good;

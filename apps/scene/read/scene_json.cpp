@@ -1,5 +1,6 @@
 #include "apps/scene/read/scene_json.hpp"
 
+#include "apps/scene/model/model_position.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/scene_names.hpp"
 #include "apps/scene/read/analysis_json.hpp"
@@ -353,6 +354,12 @@ nlohmann::ordered_json blocks_to_json(const std::vector<SceneBlock>& blocks) {
 }
 
 nlohmann::ordered_json to_json(const Scene& scene) {
+  if (!scene.origin.isZero(0.0)) {
+    Scene as_given = scene;
+    move_to_user(as_given);
+    as_given.origin.setZero();
+    return to_json(as_given);
+  }
   Json json = {{"title", scene.title},
                {"analysis", to_json(scene.analysis)},
                {"contact", to_json(scene.contact, has_multipliers(scene))}};

@@ -49,6 +49,10 @@ class TomlReading {
     return std::filesystem::path(files_.front()).parent_path();
   }
 
+  /// m, Scene::origin, for readers that make blocks. Zero until set
+  [[nodiscard]] const Vector3& origin() const { return origin_; }
+  void set_origin(const Vector3& origin) { origin_ = origin; }
+
   /// Counts pieces of masonry. @return total so far
   double add_pieces(double pieces) { return pieces_ += pieces; }
 
@@ -82,6 +86,7 @@ class TomlReading {
   Diagnostics& diagnostics_;
   ScenePlaces& places_;
   Formulas formulas_;
+  Vector3 origin_ = Vector3::Zero();
   double pieces_ = 0.0;
   KeyRecorder* recorder_ = nullptr;
   std::list<KnownTable> tables_;  // readers keep references

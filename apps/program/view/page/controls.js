@@ -96,7 +96,7 @@ function syncSection() {
   Object.assign(slider, {min: low, max: high, step: (high - low) / 200, disabled: current.section === "none"});
   slider.value = current.sectionAt;
   element("section-place").textContent = current.section === "none" ? "" : current.section.slice(-1) + " = "
-    + short(current.sectionAt) + " m";
+    + coordinateText(current.sectionAt + data.origin["xyz".indexOf(current.section.slice(-1))]) + " m";
 }
 
 function afterChange(member) {

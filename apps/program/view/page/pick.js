@@ -46,8 +46,8 @@ const orderText = ({fixed, order}) => (fixed ? "fixed" : order === 0 ? "0 (rigid
 function rowsOfBlock(index) {
   const block = data.blocks[index];
   const rows = [["block", block.name], ["order", orderText(block)], ["material", block.material || "-"]];
-  if (!current.hidden.has(index) && surface.triangleBlock.includes(index)) rows.push(["centre (m)", vectorText(centreOf(index))]);
-  if (current.picked.place) rows.push(["clicked at (m)", vectorText(current.picked.place)]);
+  if (!current.hidden.has(index) && surface.triangleBlock.includes(index)) rows.push(["centre (m)", pointText(centreOf(index))]);
+  if (current.picked.place) rows.push(["clicked at (m)", pointText(current.picked.place)]);
   const field = blockField();
   if (!isWhole(field) && current.picked.face)
     rows.push([labelOf(field, currentFrame()) + " near", quantity(field.at(currentFrame(), surface.source[current.picked.face.a]), field.unit)]);
@@ -71,7 +71,7 @@ function rowsOfContact(contact) {
     ["type", CONTACT_TYPES[contact.type]], ["state", STATES[contact.state]],
     ["gap", quantity(contact.gap, "m")], ["force on " + data.blocks[contact.a].name + " (N)", vectorText(contact.force)],
     ["normal, shear (N)", short(normalForce) + ", " + short(shear)],
-    ["area (m²)", short(contact.area)], ["place (m)", vectorText(contact.place)]];
+    ["area (m²)", short(contact.area)], ["place (m)", pointText(contact.place)]];
 }
 
 function fillTable(table, rows) {

@@ -93,7 +93,7 @@ function largestShownDisplacement(frame) {
     [most, at] = [lengthAt(shown, p), p];
   }
   if (at < 0) return null;
-  return {value: most, block: data.blocks[data.blockOfPoint[at]].name, place: placeOf(frame, at, 1, new THREE.Vector3()).toArray()};
+  return {value: most, block: data.blocks[data.blockOfPoint[at]].name, place: placeOf(frame, at, 1, new THREE.Vector3()).toArray().map((x, k) => x + data.origin[k])};
 }
 
 // ---- the control ------------------------------------------------------------------------------------------

@@ -6,8 +6,16 @@ const valueText = (value) => (typeof value === "number" ? short(value) : String(
 /// A coordinate rounded to a hundred-thousandth of the scene, so that rounding errors are 0.
 const roundedPlace = (x) => Math.round(x / (1e-5 * sceneRadius)) * 1e-5 * sceneRadius;
 
+/// A coordinate of the user. Far from the user's origin it has the digits that tell points of the scene apart.
+const coordinateText = (x) => data.origin.every((y) => y === 0) ? short(roundedPlace(x))
+  : String(Number(roundedPlace(x).toPrecision(12)));
+
+/// A point of the page in the user's coordinates.
+const pointText = (v) => data.origin.every((y) => y === 0) ? vectorText(v)
+  : [v.x, v.y, v.z].map((x, k) => coordinateText(x + data.origin[k])).join(", ");
+
 const placedText = ({value, block, place}, unit) => withoutNoise(value, unit) === 0 ? "none" :
-  quantity(withoutNoise(value, unit), unit) + " in " + block + " at (" + place.map((x) => short(roundedPlace(x))).join(", ") + ") m";
+  quantity(withoutNoise(value, unit), unit) + " in " + block + " at (" + place.map(coordinateText).join(", ") + ") m";
 
 function namesText(names, most = 5) {
   const shown = names.slice(0, most).join(", ");

@@ -10,6 +10,7 @@ namespace ashlar::sample_statistics_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(SampleStatistics, AreThoseOfTheSample) {
   const SampleStatistics statistics = statistics_of({2.0, {}, 0.5, 1.0, 0.9}, 1.0);
@@ -22,7 +23,9 @@ TEST(SampleStatistics, AreThoseOfTheSample) {
   EXPECT_EQ(statistics.share_below, 0.5);  // 1 is not below 1
   EXPECT_DOUBLE_EQ(statistics.share_error, 0.25);
   EXPECT_EQ(statistics_of({}, 1.0).count, 0U);
-  EXPECT_THAT(to_string(statistics, "f", 1.0), HasSubstr("50 % below 1 (standard error 25 %); 1 without"));
+  EXPECT_THAT(to_string(statistics, "load_factor.lower", 1.0),
+              HasSubstr("50 % below 1 (standard error 25 %); 1 without"));
+  EXPECT_THAT(to_string(statistics, "time", 1.0), Not(HasSubstr("below")));
 }
 
 SweepTable table() {
