@@ -10,6 +10,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "apps/program/number_option.hpp"
 #include "apps/program/plot/plot_script.hpp"
 #include "apps/results/tables/history_table.hpp"
 #include "apps/results/tables/response_spectrum.hpp"
@@ -182,21 +183,21 @@ void declare_spectrum_command(CLI::App& program, CommandContext& context) {
   command
       ->add_option("--baseline", options->baseline,
                    "Order of the polynomial that is removed from a record by least squares")
-      ->check(CLI::Range(0, largest_baseline_order));
+      ->transform(whole_number_option(0, largest_baseline_order));
   command->add_option("--stage", options->stage, "Stage of a run, from 1 on (default: the last)")
-      ->check(CLI::PositiveNumber)
+      ->transform(real_number_option({.low = 0.0, .low_allowed = false, .words = "a number > 0"}))
       ->type_name("N");
   command->add_option("--damping", options->damping, "Percent of critical damping (default: 5)")
-      ->check(CLI::Range(0.0, 99.0))
+      ->transform(real_number_option({.low = 0.0, .high = 99.0, .words = "a number from 0 to 99"}))
       ->type_name("PERCENT");
   command->add_option("--shortest", options->shortest, "Shortest period, s (default: 0.01)")
-      ->check(CLI::PositiveNumber)
+      ->transform(whole_number_option(1))
       ->type_name("S");
   command->add_option("--longest", options->longest, "Longest period, s (default: 10)")
-      ->check(CLI::PositiveNumber)
+      ->transform(real_number_option({.low = 0.0, .low_allowed = false, .words = "a number > 0"}))
       ->type_name("S");
   command->add_option("--periods", options->periods, "Number of periods, with equal ratios (default: 151)")
-      ->check(CLI::Range(2, 100000));
+      ->transform(whole_number_option(2, 100000));
   command
       ->add_option("-o,--out", options->out,
                    "Table (CSV); a picture is written beside it (default: the table is printed)")

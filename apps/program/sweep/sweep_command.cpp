@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/program/number_option.hpp"
 #include "apps/program/plot/plot_script.hpp"
 #include "apps/program/run/override_option.hpp"
 #include "apps/program/sweep/sample_statistics.hpp"
@@ -170,10 +171,10 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
           "--samples", options->samples.count,
           "Number of samples of random values: their statistics are printed at the end, and --picture is a "
           "histogram")
-      ->check(CLI::PositiveNumber)
+      ->transform(whole_number_option(1))
       ->type_name("N");
   command->add_option("--seed", options->samples.seed, "Of the samples (default: 1)")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(whole_number_option(0, std::numeric_limits<std::uint64_t>::max()).description(""))
       ->type_name("S");
   repeatable("--value", options->values,
              "A number for the table: a column of history.csv at its end, or a path in summary.json "
@@ -190,7 +191,7 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
           "script beside them draws it (Python with matplotlib)")
       ->type_name("FILE");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time (default: one for each processor)")
-      ->check(CLI::PositiveNumber)
+      ->transform(whole_number_option(1))
       ->type_name("N");
   command->add_flag("--force", options->force, "Replace results of other scenes, and another table");
   command->add_flag("-q,--quiet", options->quiet, "Only faults");

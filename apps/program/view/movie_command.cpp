@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/program/number_option.hpp"
 #include "apps/results/folder/scratch_folder.hpp"
 #include "apps/results/system/child_program.hpp"
 #include "apps/results/text/atomic_file.hpp"
@@ -107,7 +108,9 @@ void declare_movie_command(CLI::App& program, CommandContext& context) {
   options->look.time_limit = 600.0;
   command->add_option("DIR", options->look.folder, "Result folder of a run")->required()->type_name("");
   command->add_option("--frames", options->frames, "Frames A to B (default: all)")->type_name("A:B");
-  command->add_option("--rate", options->rate, "Frames in a second (default: 25)")->type_name("F");
+  command->add_option("--rate", options->rate, "Frames in a second (default: 25)")
+      ->type_name("F")
+      ->transform(real_number_option({}));
   declare_look(*command, options->look);
   command->add_option("-o,--out", options->movie, "Film to write: .mp4, .webp or .gif")
       ->required()

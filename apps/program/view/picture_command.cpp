@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/program/number_option.hpp"
 #include "apps/program/view/headless_browser.hpp"
 #include "apps/program/view/view_command.hpp"
 #include "apps/program/view/view_file.hpp"
@@ -27,23 +28,6 @@
 
 namespace ashlar {
 namespace {
-
-/// Numbers between separators; empty if the text is anything else.
-template <class T>
-std::vector<T> numbers_of(std::string_view text, char separator) {
-  std::vector<T> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (true) {
-    T number{};
-    const auto [next, error] = parse_number(at, end, number);
-    if (error != std::errc{}) return {};
-    numbers.push_back(number);
-    if (next == end) return numbers;
-    if (*next != separator) return {};
-    at = next + 1;
-  }
-}
 
 std::string check_size(const std::string& text) {
   const std::vector<int> size = numbers_of<int>(text, 'x');
@@ -312,12 +296,13 @@ void declare_parts(CLI::App& command, PictureParts& parts) {
 }  // namespace
 
 void declare_look(CLI::App& command, PictureOptions& options) {
+  const CLI::Validator any_number = real_number_option({});  // fault_of_look() knows the ranges
   command.add_option("--size", options.size, "Pixels (default: " + options.size + ")")->type_name("WxH");
   command
       .add_option("--sharpness", options.sharpness,
                   "Pixels of the picture for each of --size, for sharp screens and print (default: 1)")
       ->type_name("N")
-      ->check(CLI::Range(1, 4));
+      ->transform(whole_number_option(1, 4));
   command
       .add_option("--from", options.from,
                   "Direction to the eye, or front, right, top, iso ... (default: " + options.from + ")")
@@ -333,13 +318,17 @@ void declare_look(CLI::App& command, PictureOptions& options) {
   command.add_option("--at", options.at, "Centre of the view (default: the centre of all blocks)")
       ->type_name("X,Y,Z");
   command.add_option("--zoom", options.zoom, "Magnification over the whole view (default: 1)")
-      ->type_name("F");
-  command.add_option("--scale", options.scale, "Displacements times (default: 1)")->type_name("F");
+      ->type_name("F")
+      ->transform(any_number);
+  command.add_option("--scale", options.scale, "Displacements times (default: 1)")
+      ->type_name("F")
+      ->transform(any_number);
   declare_parts(command, options.parts);
   command
       .add_option("--time-limit", options.time_limit,
                   fmt::format("Seconds for the browser (default: {:g})", options.time_limit))
-      ->type_name("S");
+      ->type_name("S")
+      ->transform(any_number);
 }
 
 void declare_picture_command(CLI::App& program, CommandContext& context) {
@@ -349,7 +338,7 @@ void declare_picture_command(CLI::App& program, CommandContext& context) {
   command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
   command->add_option("--frame", options->frame, "Index of the frame, 0 the first (default: the last)")
       ->type_name("N")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max(), ">= 0"));
+      ->transform(whole_number_option(0));
   command->add_option("--frames", options->frames, "Frames A to B, as NAME_0007.png and so on")
       ->type_name("A:B")
       ->excludes("--frame");
