@@ -140,7 +140,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   };
   ViewReport report;
   try {
-    refuse_other_file(options.picture, "PNG picture", {png_mark});
+    refuse_other_file(options.picture, png_picture());
     ViewOptions wanted;
     wanted.frame = options.frame;
     wanted.points = points_of(options);
@@ -149,7 +149,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    return complain(fault_text(error), exit_status::bad_input);
+    return complain(fault_text(error), exit_status::of(error));
   }
   const std::size_t frame = options.frame.value_or(report.frames - 1);
   const std::string page =
@@ -158,7 +158,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   if (const auto fault = left_text(page, "fault")) return complain(*fault, exit_status::bad_input);
   const auto picture = left_text(page, "picture");
   if (!picture) return complain(browser.string() + " made no picture", exit_status::failed);
-  write_file_atomically(options.picture, from_base64(*picture), Durability::process);
+  write_file_of_kind(options.picture, from_base64(*picture), png_picture());
   out << fmt::format("picture: {} (frame {} of 0 to {})\n", options.picture.string(), frame,
                      report.frames - 1);
   return exit_status::done;
@@ -175,8 +175,7 @@ int make_pictures(const PictureOptions& options, std::ostream& out, std::ostream
   try {
     for (const DrawnFrame& frame : draw_frames(options, options.frames)) {
       const std::filesystem::path picture = numbered(options.picture, frame.index);
-      refuse_other_file(picture, "PNG picture", {png_mark});
-      write_file_atomically(picture, frame.png, Durability::process);
+      write_file_of_kind(picture, frame.png, png_picture());
       out << fmt::format("picture: {}\n", picture.string());
     }
   } catch (const std::invalid_argument& error) {
@@ -213,6 +212,7 @@ std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::op
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
+    if (exit_status::of(error) == exit_status::failed) throw;
     throw std::invalid_argument(fault_text(error));
   }
   const std::size_t last = report.frames - 1;
