@@ -6,8 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <new>
 #include <ostream>
+#include <system_error>
 #include <utility>
 
 #include "apps/program/blocks/blocks_command.hpp"
@@ -99,6 +101,18 @@ int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::os
 }
 
 }  // namespace
+
+int exit_status::of(const std::exception& failure) {
+  constexpr std::array of_system = {std::errc::no_space_on_device, std::errc::io_error,
+                                    std::errc::file_too_large, std::errc::too_many_files_open,
+                                    std::errc::too_many_files_open_in_system};
+  const auto* error = dynamic_cast<const std::system_error*>(&failure);
+  const bool told =
+      error != nullptr && (error->code() == std::error_code(EDQUOT, std::generic_category()) ||
+                           std::any_of(of_system.begin(), of_system.end(),
+                                       [&](std::errc reason) { return error->code() == reason; }));
+  return told ? failed : bad_input;
+}
 
 int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err,
                      const RunRanks* ranks) {

@@ -4,6 +4,7 @@
 // the list of command_line.cpp.
 #pragma once
 
+#include <exception>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ inline constexpr int done = 0;
 inline constexpr int failed = 1;         ///< the run failed; the last accepted state is saved
 inline constexpr int bad_input = 2;      ///< faults in files, arguments or usage; nothing was written
 inline constexpr int interrupted = 130;  ///< stopped by the user; state saved
+
+/// Of a failure: `failed` if the system has it (a full disk, a device that fails), otherwise `bad_input`.
+[[nodiscard]] int of(const std::exception& failure);
 }  // namespace exit_status
 
 /// Streams and status of a command.

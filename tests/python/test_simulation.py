@@ -1,5 +1,6 @@
 """Scenes and simulations from Python, against values derived by hand."""
 import decimal
+import fractions
 import json
 import os
 import pickle
@@ -157,8 +158,13 @@ def test_natural_values_stand_for_those_of_a_scene(tmp_path):
     ("density", b"2000", TypeError, "material.0.density: a value of type bytes"),
     ("density", np.datetime64("2026-01-01"), TypeError, "material.0.density: a value of type datetime.date"),
     ("density", 2**63, ValueError, "material.0.density: 9223372036854775808 is out of the range"),
+    ("density", decimal.Decimal("1e-400"), ValueError, "material.0.density: 1E-400 is out of the range of double"),
+    ("density", decimal.Decimal("1e400"), ValueError, "material.0.density: 1E.400 is out of the range of double"),
+    ("density", fractions.Fraction(10**400), ValueError, "material.0.density: 1000.* is out of the range of double"),
+    ("density", fractions.Fraction(1, 10**400), ValueError, "material.0.density: 1/1000.* is out of the range of double"),
     ("name", "\udc80", ValueError, "material.0.name: .* is no text in UTF-8"),
     (1, 2.0, TypeError, "material.0: a key is a text, not 1"),
+    ("density", 2**53 + 1, ashlar.SceneError, "whole number is not exact in double precision .9007199254740993"),
     ("density", True, ashlar.SceneError, "density"),
     ("density", "heavy", ashlar.SceneError, "density"),
     ("density", [2000], ashlar.SceneError, "density"),

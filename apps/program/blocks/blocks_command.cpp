@@ -7,11 +7,11 @@
 #include <memory>
 #include <optional>
 #include <ostream>
-#include <sstream>
 
 #include "apps/program/blocks/block_files.hpp"
 #include "apps/program/blocks/block_histogram.hpp"
 #include "apps/program/blocks/block_text.hpp"
+#include "apps/program/number_option.hpp"
 #include "apps/program/plot/plot_script.hpp"
 #include "apps/program/run/override_option.hpp"
 #include "apps/results/folder/folder_claim.hpp"
@@ -25,13 +25,10 @@ namespace {
 
 /// Three numbers with commas between, not all zero.
 std::optional<Vector3> read_force(const std::string& text) {
-  std::istringstream stream(text);
-  Vector3 force;
-  char first = 0, second = 0;
-  if (!(stream >> force.x() >> first >> force.y() >> second >> force.z())) return std::nullopt;
-  stream >> std::ws;
-  const bool good = first == ',' && second == ',' && stream.eof() && force.allFinite() && !force.isZero(0.0);
-  return good ? std::optional(force) : std::nullopt;
+  const std::vector<double> numbers = numbers_of<double>(text, ',');
+  if (numbers.size() != 3) return std::nullopt;
+  const Vector3 force(numbers[0], numbers[1], numbers[2]);
+  return force.allFinite() && !force.isZero(0.0) ? std::optional(force) : std::nullopt;
 }
 
 std::filesystem::path folder_of(const BlocksOptions& options) {

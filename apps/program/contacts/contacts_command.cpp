@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "apps/program/contacts/contact_report_json.hpp"
+#include "apps/program/number_option.hpp"
 #include "apps/scene/meshes/mesh_loading.hpp"
 #include "apps/scene/model/diagnostics.hpp"
 #include "solver/parallel_for.hpp"
@@ -258,15 +259,6 @@ class PairList {
   int status_ = exit_status::done;
 };
 
-// CLI::Range accepts NaN.
-auto within(double high) {
-  return [high](const std::string& text) {
-    double value = 0.0;
-    const bool good = CLI::detail::lexical_cast(text, value) && value >= 0.0 && value <= high;
-    return good ? std::string() : fmt::format("value is out of range ({}), allowed 0 to {:.4g}", text, high);
-  };
-}
-
 }  // namespace
 
 int contacts_command(const ContactsOptions& options, std::ostream& out, std::ostream& err) {
@@ -295,12 +287,12 @@ void declare_contacts_command(CLI::App& program, CommandContext& context) {
                    "Contact distance, m: the type at that resolution (convex solids), all contacts up to it "
                    "(others)")
       ->type_name("D")
-      ->check(within(std::numeric_limits<double>::max()));
+      ->transform(real_number_option({.low = 0.0, .words = "a number >= 0"}));
   command
       ->add_option("--angle", options->angle,
                    "Contact angle, deg: the type at that resolution (convex solids)")
       ->type_name("DEG")
-      ->check(within(90.0));
+      ->transform(real_number_option({.low = 0.0, .high = 90.0, .words = "a number from 0 to 90"}));
   command->add_flag("--json", options->json, "Print JSON, one object a line");
   command->callback([options, &context, a, b] {
     if (a->count() > 0 && b->count() == 0) throw CLI::RequiredError("a second mesh B");

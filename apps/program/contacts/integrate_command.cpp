@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "apps/program/number_option.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/meshes/mesh_loading.hpp"
 #include "mechanics/basis/moments.hpp"
@@ -76,7 +77,7 @@ void declare_integrate_command(CLI::App& program, CommandContext& context) {
   command->add_option("--degree", options->degree, "Largest a + b + c")
       ->required()
       ->type_name("N")
-      ->check(CLI::Range(0, most_degree));
+      ->transform(whole_number_option(0, most_degree));
   command->add_flag("--json", options->json, "Print JSON");
   command->callback(
       [options, &context] { context.status = integrate_command(*options, context.out, context.err); });

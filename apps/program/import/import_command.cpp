@@ -9,6 +9,7 @@
 
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/scene/import/model_import.hpp"
+#include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {
 namespace {
@@ -61,7 +62,8 @@ int import_command(const ImportOptions& options, std::ostream& out, std::ostream
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    err << "ashlar: error: " << error.what() << '\n';
+    err << "ashlar: error: " << fault_text(error) << '\n';
+    return exit_status::of(error);
   }
   return exit_status::bad_input;
 }

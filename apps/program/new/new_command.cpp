@@ -15,6 +15,7 @@
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/build/scene_schema.hpp"
 #include "apps/scene/model/nearest_name.hpp"
+#include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {
 namespace {
@@ -48,12 +49,12 @@ int new_command(const NewOptions& options, std::ostream& out, std::ostream& err)
     return exit_status::bad_input;
   }
   try {
-    refuse_other_file(schema, "schema of scenes", {R"("title": "Ashlar scene")"});
-    write_file_atomically(schema, json_text(scene_schema(), 2) + '\n', Durability::process);
+    write_file_of_kind(schema, json_text(scene_schema(), 2) + '\n',
+                       {"schema of scenes", {R"("title": "Ashlar scene")"}});
     write_file_atomically(file, found->text, Durability::process);
   } catch (const std::exception& fault) {
-    err << "ashlar: error: " << fault.what() << '\n';
-    return exit_status::bad_input;
+    err << "ashlar: error: " << fault_text(fault) << '\n';
+    return exit_status::of(fault);
   }
   out << fmt::format("scene: {}\nschema: {} (for editors)\nnext: ashlar run '{}' --view\n", file.string(),
                      schema.string(), (file.string().starts_with('-') ? "." / file : file).string());

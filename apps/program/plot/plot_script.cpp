@@ -111,14 +111,21 @@ std::vector<std::string> interpreters() {
   return found;
 }
 
-/// @return empty if the command ends well; otherwise the last line of its errors, or another reason
-std::string failure_of(const std::vector<std::string>& command) {
+/// Lets an interpreter draw files. @return empty if it does; otherwise the last line of its errors, or another reason
+std::string failure_of(const std::string& interpreter, const std::string& script,
+                       const std::vector<std::filesystem::path>& files, const ScratchFolder& scratch) {
   constexpr std::chrono::seconds limit(60);
-  const ScratchFolder scratch;
+  // Isolated: neither modules beside the script nor those that variables name are imported.
+  std::vector<std::string> command = {interpreter, "-I", std::filesystem::absolute(script)};
+  command.insert(command.end(), files.begin(), files.end());
   const std::filesystem::path errors = scratch.path() / "errors";
-  const std::optional<int> status = run_program(command, scratch.path() / "out", errors, limit);
-  if (!status) return fmt::format("did not finish within {} s", limit.count());
-  if (*status == 0) return {};
+  try {
+    const std::optional<int> status = run_program(command, scratch.path() / "out", errors, limit);
+    if (!status) return fmt::format("did not finish within {} s", limit.count());
+    if (*status == 0) return {};
+  } catch (const std::exception& error) {
+    return fault_text(error);
+  }
   std::string text = whole_file(errors);
   while (text.ends_with('\n')) text.pop_back();
   const std::string last = text.substr(text.rfind('\n') + 1);
@@ -141,26 +148,39 @@ std::string plot_script(const Plot& plot) {
                      script_tail);
 }
 
+static std::string name_with(const std::filesystem::path& picture, const char* extension) {
+  return std::filesystem::path(picture).replace_extension(extension).string();
+}
+
+static FileKind script_kind() {
+  return {"script of a plot", {plot_script_mark}};
+}
+
+void refuse_other_plot(const std::filesystem::path& picture, bool png) {
+  if (png) refuse_other_file(name_with(picture, ".png"), png_picture());
+  refuse_other_file(name_with(picture, ".svg"), svg_picture());
+  refuse_other_file(name_with(picture, ".py"), script_kind());
+}
+
 std::string write_plot(const Plot& plot, const std::filesystem::path& picture, bool png) {
-  const auto named = [&](const char* extension) {
-    return std::filesystem::path(picture).replace_extension(extension).string();
-  };
-  const std::string script = named(".py");
-  write_file_atomically(script, plot_script(plot), Durability::process);
-  std::vector<std::string> files = {named(".svg")};
-  if (png) files.push_back(named(".png"));
+  refuse_other_plot(picture, png);
+  const std::string script = name_with(picture, ".py");
+  write_file_of_kind(script, plot_script(plot), script_kind());
+  std::vector<std::pair<std::string, FileKind>> files = {{name_with(picture, ".svg"), svg_picture()}};
+  if (png) files.emplace_back(name_with(picture, ".png"), png_picture());
+  // Drawn there and written here: a picture is whole or not there.
+  const ScratchFolder scratch;
+  std::vector<std::filesystem::path> drawn = {scratch.path() / "plot.svg"};
+  if (png) drawn.push_back(scratch.path() / "plot.png");
   std::string reason = "there is no python3";
   for (const std::string& interpreter : interpreters()) {
-    std::vector<std::string> command = {interpreter, script};
-    command.insert(command.end(), files.begin(), files.end());
-    try {
-      reason = failure_of(command);
-    } catch (const std::exception& error) {
-      reason = fault_text(error);
-    }
+    reason = failure_of(interpreter, script, drawn, scratch);
     if (reason.empty()) {
       std::string text;
-      for (const std::string& file : files) text += fmt::format("picture: {}\n", file);
+      for (std::size_t k = 0; k < files.size(); ++k) {
+        write_file_of_kind(files[k].first, whole_file(drawn[k]), files[k].second);
+        text += fmt::format("picture: {}\n", files[k].first);
+      }
       return text;
     }
     reason = fmt::format("{}: {}", interpreter, reason);

@@ -180,7 +180,7 @@ std::optional<int> begin(Run& run, std::shared_ptr<const FolderClaim> claim, con
   } catch (const std::exception& error) {
     // The folder cannot be written, or its results are not those of the checkpoint: nothing has run.
     err << "ashlar: error: " << fault_text(error) << '\n';
-    return exit_status::bad_input;
+    return exit_status::of(error);
   }
   if (!run.message().empty()) err << "ashlar: " << run.message() << '\n';
   if (!run.status()) return std::nullopt;

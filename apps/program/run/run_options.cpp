@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "apps/program/number_option.hpp"
 #include "apps/program/run/override_option.hpp"
 #include "apps/program/run/run_command.hpp"
 
@@ -26,10 +27,10 @@ void declare_run_command(CLI::App& program, CommandContext& context) {
       ->add_option("--checkpoint", options->checkpoint,
                    "Seconds between checkpoints (default: 1, 2, 4, ... to 60; 0: after every step)")
       ->type_name("SECONDS")
-      ->check(CLI::Range(0.0, std::numeric_limits<double>::max(), ">= 0"));
+      ->transform(real_number_option({.low = 0.0, .words = "a number of seconds >= 0"}).description(">= 0"));
   command->add_option("-t,--threads", options->threads, "Number of threads")
       ->type_name("N")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max(), ">= 1"));
+      ->transform(whole_number_option(1));
   command->add_flag("--quiet", options->quiet, "No progress on stderr");
   command->add_flag("--view", options->view, "Write view.html into the result folder at the end");
   command

@@ -10,6 +10,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "apps/program/number_option.hpp"
 #include "apps/program/plot/plot_script.hpp"
 #include "apps/results/tables/history_table.hpp"
 #include "apps/results/tables/response_spectrum.hpp"
@@ -18,6 +19,7 @@
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/read/record_file.hpp"
 #include "apps/scene/read/record_processing.hpp"
+#include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {
 namespace {
@@ -102,8 +104,10 @@ std::vector<AccelerationSegment> segments_of_run(const SpectrumOptions& options)
   return segments_of_velocity(times, values);
 }
 
+constexpr std::string_view spectrum_header = "period,displacement,pseudo_velocity,pseudo_acceleration";
+
 std::string table_of(const std::vector<SpectrumPoint>& spectrum) {
-  std::string table = "period,displacement,pseudo_velocity,pseudo_acceleration\n";
+  std::string table = std::string(spectrum_header) + '\n';
   for (const SpectrumPoint& point : spectrum) {
     append_csv_number(table, point.period);
     for (const double value : {point.displacement, point.pseudo_velocity, point.pseudo_acceleration}) {
@@ -149,14 +153,18 @@ int spectrum_command(const SpectrumOptions& options, std::ostream& out, std::ost
       out << table;
       return exit_status::done;
     }
-    write_file_atomically(*options.out, table, Durability::process);
+    refuse_other_plot(*options.out, true);
+    write_file_of_kind(*options.out, table, {"response spectrum", {spectrum_header}});
     out << fmt::format("table: {}\n{}", options.out->string(),
                        write_plot(plot_of(options, spectrum), *options.out, true));
     return exit_status::done;
   } catch (const SpectrumError& fault) {
     err << fault.what();
-  } catch (const std::runtime_error& fault) {
+  } catch (const std::invalid_argument& fault) {
     err << "ashlar: error: " << fault.what() << '\n';
+  } catch (const std::runtime_error& fault) {
+    err << "ashlar: error: " << fault_text(fault) << '\n';
+    return exit_status::of(fault);
   }
   return exit_status::bad_input;
 }
@@ -182,21 +190,21 @@ void declare_spectrum_command(CLI::App& program, CommandContext& context) {
   command
       ->add_option("--baseline", options->baseline,
                    "Order of the polynomial that is removed from a record by least squares")
-      ->check(CLI::Range(0, largest_baseline_order));
+      ->transform(whole_number_option(0, largest_baseline_order));
   command->add_option("--stage", options->stage, "Stage of a run, from 1 on (default: the last)")
-      ->check(CLI::PositiveNumber)
+      ->transform(whole_number_option(1))
       ->type_name("N");
   command->add_option("--damping", options->damping, "Percent of critical damping (default: 5)")
-      ->check(CLI::Range(0.0, 99.0))
+      ->transform(real_number_option({.low = 0.0, .high = 99.0, .words = "a number from 0 to 99"}))
       ->type_name("PERCENT");
   command->add_option("--shortest", options->shortest, "Shortest period, s (default: 0.01)")
-      ->check(CLI::PositiveNumber)
+      ->transform(real_number_option({.low = 0.0, .low_allowed = false, .words = "a number > 0"}))
       ->type_name("S");
   command->add_option("--longest", options->longest, "Longest period, s (default: 10)")
-      ->check(CLI::PositiveNumber)
+      ->transform(real_number_option({.low = 0.0, .low_allowed = false, .words = "a number > 0"}))
       ->type_name("S");
   command->add_option("--periods", options->periods, "Number of periods, with equal ratios (default: 151)")
-      ->check(CLI::Range(2, 100000));
+      ->transform(whole_number_option(2, 100000));
   command
       ->add_option("-o,--out", options->out,
                    "Table (CSV); a picture is written beside it (default: the table is printed)")

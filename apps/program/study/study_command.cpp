@@ -73,7 +73,9 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   }
   const StudyResult result = study->run([&err](const std::string& line) { err << line << std::endl; });
   const std::filesystem::path table = folder / (options.name + ".csv");
-  write_file_atomically(table, table_csv(result), Durability::process);
+  const std::string text = table_csv(result);
+  write_file_of_kind(table, text,
+                     {"table of this study", {std::string_view(text).substr(0, text.find('\n'))}});
   out << table_text(result);
   for (const std::string& finding : result.findings) out << finding << '\n';
   out << fmt::format("table: {}\n", table.string());

@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/program/number_option.hpp"
 #include "apps/program/plot/plot_script.hpp"
 #include "apps/program/run/override_option.hpp"
 #include "apps/program/sweep/sample_statistics.hpp"
@@ -57,15 +58,12 @@ std::vector<SweepRun> runs_of(const SweepOptions& options, const std::vector<Var
   return runs;
 }
 
-/// @throws std::invalid_argument if the folder of a picture does not exist; and unless files may be replaced, if one with the
-/// name of a picture, or of its script, is another one
-void refuse_other_pictures(std::filesystem::path picture, bool replace) {
+/// @throws std::invalid_argument if the folder of a picture does not exist, or if a file with its name or that of its script
+/// is another one
+void refuse_other_pictures(const std::filesystem::path& picture) {
   if (const auto folder = picture.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder))
     throw std::invalid_argument(fmt::format("--picture {}: its folder does not exist", picture.string()));
-  if (replace) return;
-  if (picture.extension() == ".png") refuse_other_file(picture, "PNG picture", {png_mark});
-  refuse_other_file(picture.replace_extension(".svg"), "SVG picture", {svg_mark});
-  refuse_other_file(picture.replace_extension(".py"), "script of a plot", {plot_script_mark});
+  refuse_other_plot(picture, picture.extension() == ".png");
 }
 
 /// The first requested value, or else the first default one besides the time.
@@ -110,7 +108,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
     variants = variants_of(keys, options.samples);
     // Faults are reported before the runs.
     if (options.picture && options.samples.count == 0) (void)sweep_plot(keys, {{"value"}, {}}, "value");
-    if (options.picture) refuse_other_pictures(*options.picture, options.force);
+    if (options.picture) refuse_other_pictures(*options.picture);
   } catch (const std::invalid_argument& fault) {
     return refuse(fault.what());
   }
@@ -170,10 +168,10 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
           "--samples", options->samples.count,
           "Number of samples of random values: their statistics are printed at the end, and --picture is a "
           "histogram")
-      ->check(CLI::PositiveNumber)
+      ->transform(whole_number_option(1))
       ->type_name("N");
   command->add_option("--seed", options->samples.seed, "Of the samples (default: 1)")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(whole_number_option(0, std::numeric_limits<std::uint64_t>::max()).description(""))
       ->type_name("S");
   repeatable("--value", options->values,
              "A number for the table: a column of history.csv at its end, or a path in summary.json "
@@ -190,7 +188,7 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
           "script beside them draws it (Python with matplotlib)")
       ->type_name("FILE");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time (default: one for each processor)")
-      ->check(CLI::PositiveNumber)
+      ->transform(whole_number_option(1))
       ->type_name("N");
   command->add_flag("--force", options->force, "Replace results of other scenes, and another table");
   command->add_flag("-q,--quiet", options->quiet, "Only faults");

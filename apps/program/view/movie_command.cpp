@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/program/number_option.hpp"
 #include "apps/results/folder/scratch_folder.hpp"
 #include "apps/results/system/child_program.hpp"
 #include "apps/results/text/atomic_file.hpp"
@@ -37,7 +38,8 @@ std::string last_lines(const std::string& text) {
 
 void make_movie(const MovieOptions& options, const std::filesystem::path& ffmpeg,
                 const std::vector<std::string>& codec, const std::string& suffix, std::ostream& out) {
-  refuse_other_file(options.movie, "film", {"ftyp", "WEBP", "GIF8"});
+  const FileKind film = {"film", {"ftyp", "WEBP", "GIF8"}};
+  refuse_other_file(options.movie, film);
   const std::vector<DrawnFrame> frames = draw_frames(options.look, options.frames);
   const ScratchFolder scratch;
   for (std::size_t k = 0; k < frames.size(); ++k)
@@ -61,7 +63,7 @@ void make_movie(const MovieOptions& options, const std::filesystem::path& ffmpeg
         fmt::format("{} did not finish within {} s and was ended", ffmpeg.string(), options.look.time_limit));
   if (*status != 0)
     throw std::runtime_error(fmt::format("{} failed: {}", ffmpeg.string(), last_lines(whole_file(errors))));
-  write_file_atomically(options.movie, whole_file(made), Durability::process);
+  write_file_of_kind(options.movie, whole_file(made), film);
   out << fmt::format("movie: {} ({} frames, {:.3g} s)\n", options.movie.string(), frames.size(),
                      static_cast<double>(frames.size()) / options.rate);
 }
@@ -107,7 +109,9 @@ void declare_movie_command(CLI::App& program, CommandContext& context) {
   options->look.time_limit = 600.0;
   command->add_option("DIR", options->look.folder, "Result folder of a run")->required()->type_name("");
   command->add_option("--frames", options->frames, "Frames A to B (default: all)")->type_name("A:B");
-  command->add_option("--rate", options->rate, "Frames in a second (default: 25)")->type_name("F");
+  command->add_option("--rate", options->rate, "Frames in a second (default: 25)")
+      ->type_name("F")
+      ->transform(real_number_option({}));
   declare_look(*command, options->look);
   command->add_option("-o,--out", options->movie, "Film to write: .mp4, .webp or .gif")
       ->required()

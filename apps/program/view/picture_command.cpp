@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/program/number_option.hpp"
 #include "apps/program/view/headless_browser.hpp"
 #include "apps/program/view/view_command.hpp"
 #include "apps/program/view/view_file.hpp"
@@ -27,23 +28,6 @@
 
 namespace ashlar {
 namespace {
-
-/// Numbers between separators; empty if the text is anything else.
-template <class T>
-std::vector<T> numbers_of(std::string_view text, char separator) {
-  std::vector<T> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (true) {
-    T number{};
-    const auto [next, error] = parse_number(at, end, number);
-    if (error != std::errc{}) return {};
-    numbers.push_back(number);
-    if (next == end) return numbers;
-    if (*next != separator) return {};
-    at = next + 1;
-  }
-}
 
 std::string check_size(const std::string& text) {
   const std::vector<int> size = numbers_of<int>(text, 'x');
@@ -156,7 +140,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   };
   ViewReport report;
   try {
-    refuse_other_file(options.picture, "PNG picture", {png_mark});
+    refuse_other_file(options.picture, png_picture());
     ViewOptions wanted;
     wanted.frame = options.frame;
     wanted.points = points_of(options);
@@ -165,7 +149,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    return complain(fault_text(error), exit_status::bad_input);
+    return complain(fault_text(error), exit_status::of(error));
   }
   const std::size_t frame = options.frame.value_or(report.frames - 1);
   const std::string page =
@@ -174,7 +158,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   if (const auto fault = left_text(page, "fault")) return complain(*fault, exit_status::bad_input);
   const auto picture = left_text(page, "picture");
   if (!picture) return complain(browser.string() + " made no picture", exit_status::failed);
-  write_file_atomically(options.picture, from_base64(*picture), Durability::process);
+  write_file_of_kind(options.picture, from_base64(*picture), png_picture());
   out << fmt::format("picture: {} (frame {} of 0 to {})\n", options.picture.string(), frame,
                      report.frames - 1);
   return exit_status::done;
@@ -191,8 +175,7 @@ int make_pictures(const PictureOptions& options, std::ostream& out, std::ostream
   try {
     for (const DrawnFrame& frame : draw_frames(options, options.frames)) {
       const std::filesystem::path picture = numbered(options.picture, frame.index);
-      refuse_other_file(picture, "PNG picture", {png_mark});
-      write_file_atomically(picture, frame.png, Durability::process);
+      write_file_of_kind(picture, frame.png, png_picture());
       out << fmt::format("picture: {}\n", picture.string());
     }
   } catch (const std::invalid_argument& error) {
@@ -229,6 +212,7 @@ std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::op
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
+    if (exit_status::of(error) == exit_status::failed) throw;
     throw std::invalid_argument(fault_text(error));
   }
   const std::size_t last = report.frames - 1;
@@ -312,12 +296,13 @@ void declare_parts(CLI::App& command, PictureParts& parts) {
 }  // namespace
 
 void declare_look(CLI::App& command, PictureOptions& options) {
+  const CLI::Validator any_number = real_number_option({});  // fault_of_look() knows the ranges
   command.add_option("--size", options.size, "Pixels (default: " + options.size + ")")->type_name("WxH");
   command
       .add_option("--sharpness", options.sharpness,
                   "Pixels of the picture for each of --size, for sharp screens and print (default: 1)")
       ->type_name("N")
-      ->check(CLI::Range(1, 4));
+      ->transform(whole_number_option(1, 4));
   command
       .add_option("--from", options.from,
                   "Direction to the eye, or front, right, top, iso ... (default: " + options.from + ")")
@@ -333,13 +318,17 @@ void declare_look(CLI::App& command, PictureOptions& options) {
   command.add_option("--at", options.at, "Centre of the view (default: the centre of all blocks)")
       ->type_name("X,Y,Z");
   command.add_option("--zoom", options.zoom, "Magnification over the whole view (default: 1)")
-      ->type_name("F");
-  command.add_option("--scale", options.scale, "Displacements times (default: 1)")->type_name("F");
+      ->type_name("F")
+      ->transform(any_number);
+  command.add_option("--scale", options.scale, "Displacements times (default: 1)")
+      ->type_name("F")
+      ->transform(any_number);
   declare_parts(command, options.parts);
   command
       .add_option("--time-limit", options.time_limit,
                   fmt::format("Seconds for the browser (default: {:g})", options.time_limit))
-      ->type_name("S");
+      ->type_name("S")
+      ->transform(any_number);
 }
 
 void declare_picture_command(CLI::App& program, CommandContext& context) {
@@ -349,7 +338,7 @@ void declare_picture_command(CLI::App& program, CommandContext& context) {
   command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
   command->add_option("--frame", options->frame, "Index of the frame, 0 the first (default: the last)")
       ->type_name("N")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max(), ">= 0"));
+      ->transform(whole_number_option(0));
   command->add_option("--frames", options->frames, "Frames A to B, as NAME_0007.png and so on")
       ->type_name("A:B")
       ->excludes("--frame");

@@ -15,7 +15,7 @@ namespace ashlar {
 int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostream& err) {
   const std::filesystem::path page = options.page.value_or(options.folder / "view.html");
   try {
-    refuse_other_file(page, "page of ashlar", {"<title>Ashlar</title>"});
+    refuse_other_file(page, view_page());
     ViewOptions wanted;
     wanted.points = options.all_points ? ViewPoints::all : ViewPoints::few;
     wanted.relative_to = options.relative_to;
@@ -27,7 +27,7 @@ int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostr
     throw;
   } catch (const std::exception& error) {
     err << "ashlar: error: " << fault_text(error) << '\n';
-    return exit_status::bad_input;
+    return exit_status::of(error);
   }
 }
 

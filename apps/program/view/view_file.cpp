@@ -279,7 +279,7 @@ ViewReport write_view_file(const std::filesystem::path& folder, const std::files
                                                                             {"FRAMES", frame_lines},
                                                                             {"SCRIPT", assets.script}};
   const std::string text = assembled(assets.page, parts);
-  write_file_atomically(page, text, Durability::process);
+  write_file_of_kind(page, text, view_page());
   return {reader.count(), frames.items().size(), text.size()};
 }
 

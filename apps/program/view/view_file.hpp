@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "apps/program/view/view_frames.hpp"
+#include "apps/results/text/atomic_file.hpp"
 
 namespace ashlar {
 
@@ -30,11 +31,16 @@ struct ViewReport {
   std::size_t bytes = 0;
 };
 
+/// Pages of this program, which it may replace.
+[[nodiscard]] inline FileKind view_page() {
+  return {"page of ashlar", {"<title>Ashlar</title>"}};
+}
+
 /// Reads the result folder and writes the page to `page`. A folder without summary.json (a run in progress or killed)
 /// is shown with block numbers as names.
 /// @throws std::runtime_error with path and reason if the folder has no frames, or a file cannot be read, is not from
 /// a run or cannot be written; std::out_of_range if there is no frame `options.frame`;
-/// std::invalid_argument with the nearest name if there is no block `options.relative_to`.
+/// std::invalid_argument with the nearest name if there is no block `options.relative_to`, or if `page` is another file.
 ViewReport write_view_file(const std::filesystem::path& folder, const std::filesystem::path& page,
                            const ViewOptions& options = {});
 

@@ -47,12 +47,16 @@ def _integer(value, path):
     return str(value)
 
 
-def _real(value):
-    if math.isnan(value):
+def _real(value, path):
+    real = float(value)
+    # Decimals and long doubles have a wider range.
+    if (math.isinf(real) and value not in (math.inf, -math.inf)) or (real == 0 and value != 0):
+        raise ValueError(f"{path}: {value} is out of the range of double precision")
+    if math.isnan(real):
         return "nan"
-    if math.isinf(value):
-        return "inf" if value > 0 else "-inf"
-    return repr(float(value))
+    if math.isinf(real):
+        return "inf" if real > 0 else "-inf"
+    return repr(real)
 
 
 def _table(value, path):
@@ -70,7 +74,10 @@ def _value(value, path):
     if isinstance(value, numbers.Integral):
         return _integer(int(value), path)
     if isinstance(value, (numbers.Real, decimal.Decimal)):
-        return _real(float(value))
+        try:
+            return _real(value, path)
+        except OverflowError:  # of a fraction
+            raise ValueError(f"{path}: {value} is out of the range of double precision") from None
     if isinstance(value, str):
         return _text(value, path)
     if isinstance(value, os.PathLike):

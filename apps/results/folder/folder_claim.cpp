@@ -163,8 +163,9 @@ void FolderClaim::open_marker(ClaimPurpose purpose) {
   std::uint64_t bytes = 0;
   if (const std::error_code reason = lock_.find_kind(plain, bytes)) fail(reason);
   const std::string start = start_of(marker_, marker_text.size());
-  // An empty marker was just created, or the program was killed then.
-  if (!plain || (bytes > 0 && start != marker_text))
+  // A marker without all of its text was just created, or the program was killed or had no space then.
+  const bool begun = bytes < marker_text.size() && marker_text.starts_with(start);
+  if (!plain || (start != marker_text && !begun))
     throw ClaimRefused(fmt::format("{} is in the way: it was not made by ashlar", marker_.string()));
 }
 

@@ -13,7 +13,9 @@ namespace ashlar {
 class ScratchFolder {
  public:
   /// @throws std::system_error if it cannot be created
-  ScratchFolder() : path_(new_private_folder(std::filesystem::temp_directory_path() / "ashlar-")) {}
+  ScratchFolder()
+      : path_(new_private_folder(
+            std::filesystem::absolute(std::filesystem::temp_directory_path() / "ashlar-"))) {}
   ~ScratchFolder() {
     std::error_code ignored;
     try {

@@ -10,61 +10,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "apps/results/frames/hdf5_handle.hpp"
+
 namespace ashlar {
 namespace {
 
 // Coordinates and forces hardly compress: level 4 takes half as long again for one per cent.
 constexpr unsigned compression_level = 1;
-
-/// An identifier of the library, closed at the end of its scope.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): an argument of the library
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// The library prints no errors within this scope, and does again afterwards if it did.
-class Quiet {
- public:
-  Quiet() {
-    // At the end of a program the library would write what it could not write before, and crash.
-    [[maybe_unused]] static const herr_t ends_without = H5dont_atexit();
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
-/// The cause of the last failure: the system's reason if there is one, otherwise the innermost description.
-std::string last_reason() {
-  std::string found;
-  H5Ewalk2(
-      H5E_DEFAULT, H5E_WALK_UPWARD,
-      [](unsigned depth, const H5E_error2_t* error, void* text) -> herr_t {
-        if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
-        return 0;
-      },
-      &found);
-  constexpr std::string_view mark = "error message = '";
-  if (const std::size_t start = found.find(mark); start != std::string::npos)
-    found = found.substr(start + mark.size(), found.find('\'', start + mark.size()) - start - mark.size());
-  return found.empty() ? "unknown reason" : found;
-}
 
 hid_t new_file_type(Hdf5Type type) {
   switch (type) {
@@ -126,17 +78,17 @@ std::uint64_t values_of_row(const Hdf5Table& layout) {
 }  // namespace
 
 void Hdf5File::fail(const char* action) const {
-  throw std::runtime_error(fmt::format("cannot {} {}: {}", action, path_.string(), last_reason()));
+  throw std::runtime_error(fmt::format("cannot {} {}: {}", action, path_.string(), last_hdf5_reason()));
 }
 
 Hdf5File::Hdf5File(std::filesystem::path path, Access access)
     : path_(std::move(path)), action_(access == Access::read ? "read" : "write"), file_(-1) {
-  const Quiet quiet;
-  const Handle opening(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle opening(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // The format of HDF5 1.10 has the smaller indices of chunks.
   H5Pset_libver_bounds(opening, H5F_LIBVER_V110, H5F_LIBVER_V110);
   H5Pset_file_locking(opening, false, true);
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   H5Pset_obj_track_times(creation, false);
   if (access == Access::create)
@@ -148,17 +100,17 @@ Hdf5File::Hdf5File(std::filesystem::path path, Access access)
 
 Hdf5File::~Hdf5File() {
   if (file_ < 0) return;
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   H5Fclose(file_);
 }
 
 void Hdf5File::close() {
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   if (H5Fclose(std::exchange(file_, -1)) < 0) fail(action_);
 }
 
 bool Hdf5File::exists(const std::string& object) const {
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string part = object.substr(0, end);
     if (H5Lexists(file_, part.c_str(), H5P_DEFAULT) <= 0 ||
@@ -169,8 +121,8 @@ bool Hdf5File::exists(const std::string& object) const {
 }
 
 std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
-  const Quiet quiet;
-  const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
   H5G_info_t information;
   if (opened < 0 || H5Gget_info(opened, &information) < 0) fail(action_);
   std::vector<std::string> names;
@@ -185,53 +137,56 @@ std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
 }
 
 void Hdf5File::add_group(const std::string& group) {
-  const Quiet quiet;
-  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   H5Pset_obj_track_times(creation, false);
-  const Handle added(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
-  if (added < 0) fail(action_);
+  Hdf5Handle added(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+  if (added < 0 || !added.close()) fail(action_);
 }
 
 void Hdf5File::add_name(const std::string& object, const std::string& name) {
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   if (H5Lcreate_hard(file_, object.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) fail(action_);
 }
 
 void Hdf5File::add_soft_link(const std::string& target, const std::string& name) {
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   if (H5Lcreate_soft(target.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) fail(action_);
 }
 
 void Hdf5File::set_attribute(const std::string& group, const char* name,
                              std::span<const std::int64_t> values) {
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   const hsize_t size = values.size();
-  const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  const Handle space(size == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr), H5Sclose);
+  Hdf5Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle space(size == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr), H5Sclose);
   const bool known = H5Aexists(opened, name) > 0;
-  const Handle attribute(known ? H5Aopen(opened, name, H5P_DEFAULT)
-                               : H5Acreate2(opened, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
-  if (attribute < 0 || H5Awrite(attribute, H5T_NATIVE_INT64, values.data()) < 0) fail(action_);
+  Hdf5Handle attribute(known ? H5Aopen(opened, name, H5P_DEFAULT)
+                             : H5Acreate2(opened, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Aclose);
+  if (attribute < 0 || H5Awrite(attribute, H5T_NATIVE_INT64, values.data()) < 0 || !attribute.close() ||
+      !opened.close())
+    fail(action_);
 }
 
 void Hdf5File::set_attribute(const std::string& group, const char* name, const std::string& text) {
-  const Quiet quiet;
-  const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  const Hdf5Quiet quiet;
+  Hdf5Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, text.size());
   H5Tset_strpad(type, H5T_STR_NULLPAD);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(opened, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  if (attribute < 0 || H5Awrite(attribute, type, text.data()) < 0) fail(action_);
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  Hdf5Handle attribute(H5Acreate2(opened, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (attribute < 0 || H5Awrite(attribute, type, text.data()) < 0 || !attribute.close() || !opened.close())
+    fail(action_);
 }
 
 std::int64_t Hdf5File::integer_attribute(const std::string& group, const char* name) const {
-  const Quiet quiet;
-  const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  const Handle attribute(H5Aopen(opened, name, H5P_DEFAULT), H5Aclose);
-  const Handle space(H5Aget_space(attribute), H5Sclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle attribute(H5Aopen(opened, name, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
   std::int64_t value = 0;
   if (space < 0 || H5Sget_simple_extent_npoints(space) != 1 ||
       H5Aread(attribute, H5T_NATIVE_INT64, &value) < 0)
@@ -240,12 +195,12 @@ std::int64_t Hdf5File::integer_attribute(const std::string& group, const char* n
 }
 
 std::string Hdf5File::text_attribute(const std::string& group, const char* name) const {
-  const Quiet quiet;
-  const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  const Handle attribute(H5Aopen(opened, name, H5P_DEFAULT), H5Aclose);
-  const Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle attribute(H5Aopen(opened, name, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
   std::array<char, 65> text{};
-  const Handle space(H5Aget_space(attribute), H5Sclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
   if (type < 0 || space < 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
       H5Tget_size(type) >= text.size() || H5Sget_simple_extent_npoints(space) != 1 ||
       H5Aread(attribute, type, text.data()) < 0)
@@ -254,14 +209,14 @@ std::string Hdf5File::text_attribute(const std::string& group, const char* name)
 }
 
 void Hdf5File::add_table(const std::string& table, const Hdf5Table& layout) {
-  const Quiet quiet;
+  const Hdf5Quiet quiet;
   const int dimensions = layout.columns == 0 ? 1 : 2;
   const std::array<hsize_t, 2> size = {0, static_cast<hsize_t>(layout.columns)};
   const std::array<hsize_t, 2> most = {H5S_UNLIMITED, size[1]};
   const std::array<hsize_t, 2> chunk = {layout.chunk_rows, size[1]};
-  const Handle space(H5Screate_simple(dimensions, size.data(), most.data()), H5Sclose);
-  const Handle type(new_file_type(layout.type), H5Tclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Hdf5Handle space(H5Screate_simple(dimensions, size.data(), most.data()), H5Sclose);
+  const Hdf5Handle type(new_file_type(layout.type), H5Tclose);
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(creation, dimensions, chunk.data());
   H5Pset_obj_track_times(creation, false);
   set_fill(creation, layout.type);
@@ -269,21 +224,21 @@ void Hdf5File::add_table(const std::string& table, const Hdf5Table& layout) {
     H5Pset_shuffle(creation);
     H5Pset_deflate(creation, compression_level);
   }
-  const Handle added(H5Dcreate2(file_, table.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                     H5Dclose);
-  if (added < 0) fail(action_);
+  Hdf5Handle added(H5Dcreate2(file_, table.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                   H5Dclose);
+  if (added < 0 || !added.close()) fail(action_);
 }
 
 Hdf5Table Hdf5File::table(const std::string& table) const {
-  const Quiet quiet;
-  const Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
-  const Handle space(H5Dget_space(dataset), H5Sclose);
-  const Handle type(H5Dget_type(dataset), H5Tclose);
-  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   if (dataset < 0 || space < 0 || type < 0 || creation < 0) fail(action_);
   Hdf5Table layout;
   const auto* known = std::find_if(all_types.begin(), all_types.end(), [&](Hdf5Type candidate) {
-    const Handle of_file(new_file_type(candidate), H5Tclose);
+    const Hdf5Handle of_file(new_file_type(candidate), H5Tclose);
     return H5Tequal(type, of_file) > 0;
   });
   const int dimensions = H5Sget_simple_extent_ndims(space);
@@ -302,10 +257,11 @@ Hdf5Table Hdf5File::table(const std::string& table) const {
 
 void Hdf5File::resize(const std::string& table, std::uint64_t rows) {
   const Hdf5Table layout = this->table(table);
-  const Quiet quiet;
-  const Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Quiet quiet;
+  Hdf5Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
   const std::array<hsize_t, 2> size = {rows, static_cast<hsize_t>(layout.columns)};
-  if (layout.rows != rows && H5Dset_extent(dataset, size.data()) < 0) fail(action_);
+  if (dataset < 0 || (layout.rows != rows && H5Dset_extent(dataset, size.data()) < 0) || !dataset.close())
+    fail(action_);
 }
 
 void Hdf5File::add_rows_of(const Hdf5File& other, const std::string& table) {
@@ -316,9 +272,9 @@ void Hdf5File::add_rows_of(const Hdf5File& other, const std::string& table) {
     return;
   }
   resize(table, whole.rows);
-  const Quiet quiet;
-  const Handle from(H5Dopen2(other.file_, table.c_str(), H5P_DEFAULT), H5Dclose);
-  const Handle to(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle from(H5Dopen2(other.file_, table.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Handle to(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
   std::vector<std::uint8_t> chunk;
   for (std::uint64_t row = old.rows / old.chunk_rows * old.chunk_rows; row < whole.rows;
        row += old.chunk_rows) {
@@ -331,6 +287,7 @@ void Hdf5File::add_rows_of(const Hdf5File& other, const std::string& table) {
     if (H5Dread_chunk(from, H5P_DEFAULT, place.data(), &filters, chunk.data()) < 0) fail("read");
     if (H5Dwrite_chunk(to, H5P_DEFAULT, filters, place.data(), bytes, chunk.data()) < 0) fail(action_);
   }
+  if (!to.close()) fail(action_);
 }
 
 template <class T>
@@ -339,12 +296,12 @@ void Hdf5File::write(const std::string& table, std::uint64_t start, std::span<co
   const std::uint64_t rows = values.size() / values_of_row(layout);
   if (start + rows > layout.rows) resize(table, start + rows);
   if (rows == 0) return;
-  const Quiet quiet;
-  const Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
-  const Handle place(selected_rows(dataset, layout, start, rows), H5Sclose);
+  const Hdf5Quiet quiet;
+  Hdf5Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle place(selected_rows(dataset, layout, start, rows), H5Sclose);
   const hsize_t count = values.size();
-  const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  const Handle type(new_file_type(type_of<T>), H5Tclose);
+  const Hdf5Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Hdf5Handle type(new_file_type(type_of<T>), H5Tclose);
   const std::vector<Passed<T>> texts = [&] {
     std::vector<Passed<T>> passed;
     if constexpr (std::is_same_v<T, std::string>)
@@ -353,7 +310,8 @@ void Hdf5File::write(const std::string& table, std::uint64_t start, std::span<co
   }();
   const void* data = std::is_same_v<T, std::string> ? static_cast<const void*>(texts.data())
                                                     : static_cast<const void*>(values.data());
-  if (layout.type != type_of<T> || H5Dwrite(dataset, type, memory, place, H5P_DEFAULT, data) < 0)
+  if (layout.type != type_of<T> || H5Dwrite(dataset, type, memory, place, H5P_DEFAULT, data) < 0 ||
+      !dataset.close())
     fail(action_);
 }
 
@@ -366,12 +324,12 @@ std::vector<T> Hdf5File::read(const std::string& table, std::uint64_t start, std
                     path_.string(), table, layout.rows, rows, start));
   }
   if (rows == 0) return {};
-  const Quiet quiet;
-  const Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
-  const Handle place(selected_rows(dataset, layout, start, rows), H5Sclose);
+  const Hdf5Quiet quiet;
+  const Hdf5Handle dataset(H5Dopen2(file_, table.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle place(selected_rows(dataset, layout, start, rows), H5Sclose);
   const hsize_t count = rows * values_of_row(layout);
-  const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  const Handle type(new_file_type(type_of<T>), H5Tclose);
+  const Hdf5Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Hdf5Handle type(new_file_type(type_of<T>), H5Tclose);
   std::vector<Passed<T>> passed(count);
   if (H5Dread(dataset, type, memory, place, H5P_DEFAULT, passed.data()) < 0) fail(action_);
   if constexpr (std::is_same_v<T, std::string>) {

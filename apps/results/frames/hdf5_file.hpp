@@ -41,7 +41,8 @@ class Hdf5File {
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
-  /// Writes what is pending and closes the file; the destructor does the same without an error.
+  /// Writes what is pending and closes the file. A file that was changed and is destroyed without it is not to be used:
+  /// that is for exceptions on the way.
   void close();
 
   /// False for a link without target, too.

@@ -35,14 +35,22 @@ std::string read_all(int stream) {
   }
 }
 
+/// For a copy: the signal when this process has ended. @param parent this process
+void end_with(pid_t parent, int signal) {
+  (void)::prctl(PR_SET_PDEATHSIG, signal);
+  if (::getppid() != parent) ::_exit(1);  // it had already
+}
+
 }  // namespace
 
-ProcessCopy::ProcessCopy(const std::function<int()>& run) : process_(::fork()) {
+ProcessCopy::ProcessCopy(const std::function<int()>& run) {
+  const pid_t parent = ::getpid();
+  process_ = ::fork();
   if (process_ < 0)
     throw std::system_error(errno, std::generic_category(), "a process for a run cannot be made");
   if (process_ > 0) return;
   (void)::setpgid(0, 0);
-  (void)::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  end_with(parent, SIGTERM);
   ::_exit([&]() noexcept { return run(); }());
 }
 
@@ -60,8 +68,10 @@ void ProcessCopy::ask_to_end() const {
 std::optional<std::string> told_by_copy(const std::function<std::optional<std::string>()>& tell) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) return std::nullopt;
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) {
+    end_with(parent, SIGKILL);
     ::close(ends[0]);
     bool told = false;
     try {

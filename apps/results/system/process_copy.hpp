@@ -22,10 +22,11 @@ class ProcessCopy {
   void ask_to_end() const;
 
  private:
-  std::int64_t process_;
+  std::int64_t process_ = -1;
 };
 
 /// Calls a function in a copy of this process and waits for its end. Memory that it takes is not this one's.
+/// It ends when this process does.
 /// @return what it returns; empty also if the copy cannot be made or does not end well
 [[nodiscard]] std::optional<std::string> told_by_copy(
     const std::function<std::optional<std::string>()>& tell);

@@ -62,19 +62,23 @@ void write_file_atomically(const std::filesystem::path& path, Durability durabil
   if (durability == Durability::power) sync_folder(path.parent_path());
 }
 
-void refuse_other_file(const std::filesystem::path& path, const char* kind,
-                       std::initializer_list<std::string_view> marks) {
+void refuse_other_file(const std::filesystem::path& path, const FileKind& kind) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return;  // writing reports other obstacles
   std::string head(1000, '\0');
   std::ifstream stream(path, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream.gcount()));
-  const bool same = std::any_of(marks.begin(), marks.end(),
+  const bool same = std::any_of(kind.marks.begin(), kind.marks.end(),
                                 [&](std::string_view mark) { return head.find(mark) != std::string::npos; });
   if (!same && !head.empty())
     throw std::invalid_argument(
-        fmt::format("{} is in the way: it is no {}, another name is needed", path.string(), kind));
+        fmt::format("{} is in the way: it is no {}, another name is needed", path.string(), kind.name));
+}
+
+void write_file_of_kind(const std::filesystem::path& path, std::string_view content, const FileKind& kind) {
+  refuse_other_file(path, kind);
+  write_file_atomically(path, content, Durability::process);
 }
 
 }  // namespace ashlar

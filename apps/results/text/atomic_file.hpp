@@ -3,8 +3,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <string_view>
+#include <vector>
 
 #include "apps/results/system/output_file.hpp"
 
@@ -28,12 +28,25 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 void write_file_atomically(const std::filesystem::path& path, Durability durability,
                            const std::function<void(OutputFile&)>& write);
 
-/// Checks that a file may be replaced: it does not exist, or its first 1000 bytes have one of these marks of its
-/// kind.
-/// @throws std::invalid_argument "PATH is in the way: it is no KIND, another name is needed"
-void refuse_other_file(const std::filesystem::path& path, const char* kind,
-                       std::initializer_list<std::string_view> marks);
+/// Files of the same kind as one that a command writes under a name of the user's choice.
+struct FileKind {
+  const char* name;                     ///< "PNG picture"
+  std::vector<std::string_view> marks;  ///< each file of the kind has one of them in its first 1000 bytes
+};
 
-inline constexpr std::string_view png_mark = "\x89PNG", svg_mark = "<svg";
+/// Checks that a file may be replaced: it does not exist, is empty, or is of the kind.
+/// @throws std::invalid_argument "PATH is in the way: it is no KIND, another name is needed"
+void refuse_other_file(const std::filesystem::path& path, const FileKind& kind);
+
+/// The functions for files outside of folders that belong to a run: as write_file_atomically, of files that may be replaced.
+/// @throws std::invalid_argument as refuse_other_file
+void write_file_of_kind(const std::filesystem::path& path, std::string_view content, const FileKind& kind);
+
+[[nodiscard]] inline FileKind png_picture() {
+  return {"PNG picture", {"\x89PNG"}};
+}
+[[nodiscard]] inline FileKind svg_picture() {
+  return {"SVG picture", {"<svg"}};
+}
 
 }  // namespace ashlar

@@ -29,7 +29,12 @@ class SyntaxCheck {
   bool boolean(bool) { return true; }
   bool number_integer(Json::number_integer_t) { return true; }
   bool number_unsigned(Json::number_unsigned_t) { return true; }
-  bool number_float(Json::number_float_t, const Json::string_t&) { return true; }
+  bool number_float(Json::number_float_t value, const Json::string_t& digits) {
+    if (value != 0.0) return true;
+    if (digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") != std::string::npos)
+      throw error_at(text_, place_of(digits), out_of_range(digits));
+    return true;
+  }
   bool string(Json::string_t&) { return true; }
   bool binary(Json::binary_t&) { return true; }
   bool key(Json::string_t&) { return true; }
@@ -37,11 +42,31 @@ class SyntaxCheck {
   bool end_object() { return close(); }
   bool start_array(std::size_t) { return open(); }
   bool end_array() { return close(); }
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) {
+  bool parse_error(std::size_t position, const std::string& digits,
+                   const nlohmann::detail::exception& fault) {
+    constexpr int number_overflow = 406;
+    if (fault.id == number_overflow)
+      throw error_at(text_, position - std::min(position, digits.size()) + 1, out_of_range(digits));
     throw error_at(text_, position, fmt::format("text is no JSON from here on, {} is JSON", kind_));
   }
 
  private:
+  static std::string out_of_range(const std::string& digits) {
+    return fmt::format("number is out of the range of double precision ({}), allowed 4.9e-324 to 1.7e308",
+                       printable(digits));
+  }
+  /// Byte, counted from 1, of the first number of exactly these digits.
+  [[nodiscard]] std::size_t place_of(const std::string& digits) const {
+    constexpr std::string_view of_numbers = "0123456789.+-eE";
+    const auto continues = [&](std::size_t at) {
+      return at < text_.size() && of_numbers.find(text_[at]) != std::string_view::npos;
+    };
+    std::size_t at = text_.find(digits);
+    while (at != std::string_view::npos && (continues(at - 1) || continues(at + digits.size())))
+      at = text_.find(digits, at + 1);
+    return at == std::string_view::npos ? 0 : at + 1;
+  }
+
   bool open() {
     if (++levels_ > most_json_levels)
       throw MeshFileError(

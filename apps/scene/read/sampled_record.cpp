@@ -145,18 +145,20 @@ struct SeriesHead {
   Layout layout;
 };
 
-/// "(8f10.3)" if there is one.
+/// "(8f10.3)" if there is one; no fields if its numbers are too large for a line.
 Layout layout_of(std::string_view line) {
   Layout layout;
   const std::size_t open = line.rfind('(');
   const std::size_t letter = line.find('f', open == std::string_view::npos ? line.size() : open);
   if (letter == std::string_view::npos) return layout;
+  constexpr std::size_t longest_line = 10000;
   const auto whole = [&](std::size_t from) {
     std::size_t value = 0;
-    std::from_chars(line.data() + from, line.data() + line.size(), value);
-    return value;
+    const auto [end, error] = std::from_chars(line.data() + from, line.data() + line.size(), value);
+    return error == std::errc::result_out_of_range ? longest_line + 1 : value;
   };
   const std::size_t fields = whole(open + 1), width = whole(letter + 1);
+  if (fields > longest_line || width > longest_line) return {0, 0};
   if (fields > 0 && width > 0) layout = {fields, width};
   return layout;
 }
@@ -204,6 +206,13 @@ class Volume2Reader {
 
  private:
   bool read_one(SeriesHead head) {
+    if (head.layout.fields == 0) {
+      lines_.fault(
+          1,
+          "line before a series has a layout that is too wide; at most 10000 values of 10000 columns, "
+          "as (8f10.3), are allowed");
+      return false;
+    }
     if (!(head.count >= 1.0) || head.count != std::floor(head.count) || !(head.series.interval > 0.0)) {
       lines_.fault(1,
                    "line before a series has no number of values or no interval; \"N points of accel data "

@@ -13,6 +13,7 @@
 
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/toml/digit.hpp"
+#include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -105,6 +106,26 @@ std::vector<Formulas::Name> names_in(const std::string& text) {
     }
   }
   return names;
+}
+
+// The parser reads 1e-400 as zero.
+void refuse_numbers_out_of_range(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    if (is_letter(text[at])) {
+      while (at < text.size() && (is_letter(text[at]) || is_digit(text[at]))) ++at;
+    } else if (is_digit(text[at]) || text[at] == '.') {
+      const std::size_t end = end_of_number(text, at);
+      double ignored = 0.0;
+      if (parse_number(text.data() + at, text.data() + end, ignored).ec == std::errc::result_out_of_range)
+        throw FormulaError(fmt::format("number is out of the range of double precision ({}), 4.9e-324 to "
+                                       "1.7e308 is allowed",
+                                       text.substr(at, end - at)),
+                           at);
+      at = end;
+    } else {
+      ++at;
+    }
+  }
 }
 
 // The parser would read `a = 2` as an assignment.
@@ -234,6 +255,7 @@ void Formulas::check(const std::string& text) const {
                                    name.text, guess(name.text, known)),
                        name.offset);
   }
+  refuse_numbers_out_of_range(text);
   refuse_assignment(text);
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "apps/scene/model/nearest_name.hpp"
+#include "apps/scene/toml/toml_faults.hpp"
 #include "apps/scene/toml/toml_reading.hpp"
 
 namespace ashlar {
@@ -65,6 +66,8 @@ toml::table parse_tree(const std::string& key, std::string_view value, const std
   try {
     return parse_toml(fmt::format("{} = {}", key, value), origin);
   } catch (const toml::parse_error& error) {
+    if (const std::string range = number_out_of_range(error.description()); !range.empty())
+      throw OverrideError(range);
     const std::size_t start = value.find_first_not_of(" \t");
     if (start == std::string_view::npos)
       throw OverrideError(fmt::format("no value (), a TOML value is needed"));

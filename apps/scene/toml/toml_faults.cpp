@@ -31,6 +31,12 @@ std::string_view quoted_in(std::string_view message) {
   return start == end ? std::string_view() : message.substr(start + 1, end - start - 1);
 }
 
+/// The parser's words for a number beyond 64 bits or double precision.
+bool tells_of_range(std::string_view words) {
+  return words.find("is not representable") != std::string_view::npos ||
+         words.find("could not be interpreted as a value") != std::string_view::npos;
+}
+
 /// End of the number before a fault: at the fault, without blanks.
 std::string_view before_fault(std::string_view line, std::size_t column) {
   std::string_view before = line.substr(0, std::min(column - 1, line.size()));
@@ -46,8 +52,22 @@ bool begins_unit(char letter) {
 
 }  // namespace
 
+std::string number_out_of_range(std::string_view words) {
+  if (!tells_of_range(words)) return {};
+  const std::string_view number = quoted_in(words);
+  const bool real = number.find_first_of(".eE") != std::string_view::npos && !number.starts_with("0x");
+  return real ? fmt::format(
+                    "number is out of the range of double precision ({}), 4.9e-324 to 1.7e308 is allowed",
+                    number)
+              : fmt::format(
+                    "whole number is not exact in double precision ({}), whole numbers up to 2^53 are; "
+                    "with a decimal point it is rounded",
+                    number);
+}
+
 std::string malformed_toml(std::string_view text, const toml::parse_error& error) {
   const std::string_view words = error.description();
+  if (std::string range = number_out_of_range(words); !range.empty()) return range;
   if (words.find("redefine existing table") != std::string_view::npos) {
     const std::string_view key = quoted_in(words);
     const std::string_view last = key.substr(key.rfind('.') + 1);

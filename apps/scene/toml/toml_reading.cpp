@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
+#include <cstdint>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -47,6 +49,63 @@ std::string_view::const_iterator find_deep_key(std::string_view text) {
   });
 }
 
+/// True if double precision has this number: it has at most 53 digits in base 2 before its zeros at the end.
+bool is_exact_in_double(std::int64_t number) {
+  constexpr int mantissa_digits = 53;
+  const auto bits = static_cast<std::uint64_t>(number);
+  const std::uint64_t size = number < 0 ? 0 - bits : bits;
+  return size == 0 || std::bit_width(size) - std::countr_zero(size) <= mantissa_digits;
+}
+
+[[noreturn]] void refuse_number(std::string_view text, const toml::source_position& place) {
+  // In the words of the parser for whole numbers that 64 bits do not have.
+  throw toml::parse_error(fmt::format("'{}' is not representable in double precision", text).c_str(), place);
+}
+
+/// Refuses whole numbers that double precision does not have, and collects places of real numbers that are zero.
+void check_numbers(const toml::node& node, std::vector<toml::source_position>& zeros) {
+  if (const auto* whole = node.as_integer(); whole != nullptr && !is_exact_in_double(**whole))
+    refuse_number(std::to_string(**whole), node.source().begin);
+  if (const auto* real = node.as_floating_point(); real != nullptr && **real == 0.0)
+    zeros.push_back(node.source().begin);
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& entry : *array) check_numbers(entry, zeros);
+  if (const toml::table* table = node.as_table())
+    for (const auto& [key, value] : *table) check_numbers(value, zeros);
+}
+
+/// Refuses 1e-400, which the parser reads as zero.
+void refuse_lost_numbers(std::string_view text, std::vector<toml::source_position> zeros) {
+  std::sort(zeros.begin(), zeros.end());
+  const auto continues = [&](std::size_t k) {  // a character of several bytes
+    return k < text.size() && (static_cast<unsigned char>(text[k]) & 0xc0U) == 0x80U;
+  };
+  toml::source_position at{1, 1};
+  std::size_t offset = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  for (const toml::source_position& zero : zeros) {
+    for (; at < zero && offset < text.size(); ++offset) {
+      if (text[offset] == '\n')
+        at = {at.line + 1, 1};
+      else if (!continues(offset + 1))
+        ++at.column;
+    }
+    const std::string_view number =
+        text.substr(offset, std::min(text.find_first_of(",]}# \t\r\n", offset), text.size()) - offset);
+    if (number.substr(0, number.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos)
+      refuse_number(number, zero);
+  }
+}
+
+toml::table parsed_twice(std::string_view text, std::string_view origin) {
+  try {
+    return toml::parse(text, origin);
+  } catch (const toml::parse_error&) {
+    // It reads numbers through streams, which swallow a failed allocation: "0.5" is then not a number. Malformed text
+    // fails the second time too.
+    return toml::parse(text, origin);
+  }
+}
+
 }  // namespace
 
 toml::table parse_toml(std::string_view text, std::string_view origin) {
@@ -58,13 +117,16 @@ toml::table parse_toml(std::string_view text, std::string_view origin) {
     position.column = static_cast<toml::source_index>(before.size() - (before.rfind('\n') + 1) + 1);
     throw toml::parse_error("a key of more than 1000 parts", position);
   }
-  try {
-    return toml::parse(text, origin);
-  } catch (const toml::parse_error&) {
-    // It reads numbers through streams, which swallow a failed allocation: "0.5" is then not a number. Malformed text
-    // fails the second time too.
-    return toml::parse(text, origin);
-  }
+  toml::table document = parsed_twice(text, origin);
+  std::vector<toml::source_position> zeros;
+  check_numbers(document, zeros);
+  refuse_lost_numbers(text, std::move(zeros));
+  return document;
+}
+
+double number_in(const toml::node& node) {
+  const auto* whole = node.as_integer();
+  return whole != nullptr ? static_cast<double>(**whole) : **node.as_floating_point();
 }
 
 std::string describe(const toml::node& node) {
@@ -104,7 +166,7 @@ std::optional<double> TomlReading::number(const toml::node& node, std::string_vi
 
 std::optional<double> TomlReading::number(const toml::node& node, std::string_view key,
                                           const Formulas& formulas) {
-  if (node.is_number()) return node.value<double>();
+  if (node.is_number()) return number_in(node);
   try {
     return formulas.value(**node.as_string());
   } catch (const FormulaError& fault) {
@@ -116,7 +178,7 @@ std::optional<double> TomlReading::number(const toml::node& node, std::string_vi
 }
 
 std::function<double(const Vector3&)> TomlReading::function(const toml::node& node, std::string_view key) {
-  if (node.is_number()) return [value = *node.value<double>()](const Vector3&) { return value; };
+  if (node.is_number()) return [value = number_in(node)](const Vector3&) { return value; };
   try {
     return formulas_.of_place(**node.as_string());
   } catch (const FormulaError& fault) {

@@ -92,9 +92,15 @@ class TomlReading {
   std::list<KnownTable> tables_;  // readers keep references
 };
 
-/// Parses a document as toml::parse does. @throws toml::parse_error, also if a dotted key has more than a thousand
-/// parts: every part is a nested table, and the parser's recursion would exhaust the stack
+/// Parses a document as toml::parse does. @throws toml::parse_error, also
+/// - "'N' is not representable in double precision" for a whole number above 2^53 that would be rounded, and for a real
+///   number so small that it would be zero: all numbers of a document are read as double (number_in);
+/// - if a dotted key has more than a thousand parts: every part is a nested table, and the parser's recursion would
+///   exhaust the stack.
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view origin);
+
+/// Value of a node that is a number of either kind (node.is_number()), exactly.
+[[nodiscard]] double number_in(const toml::node& node);
 
 /// A value for a message: short ones as TOML, long ones by their kind.
 [[nodiscard]] std::string describe(const toml::node& node);

@@ -31,7 +31,7 @@ void TomlTableReader::refuse_former(std::string_view key, std::string message) {
 bool TomlTableReader::holds_infinity(std::string_view key) {
   const toml::node* node = find(key);
   return node != nullptr && node->is_floating_point() &&
-         *node->value<double>() == std::numeric_limits<double>::infinity();
+         number_in(*node) == std::numeric_limits<double>::infinity();
 }
 
 void TomlTableReader::require(std::string_view key) {
@@ -270,7 +270,7 @@ bool TomlTableReader::read_field(std::string_view key, SceneField& result, std::
     functions.push_back(reading_.function(entry, key));
     if (functions.back() == nullptr) return false;
     if (entry.is_number())
-      field.written.emplace_back(*entry.value<double>());
+      field.written.emplace_back(number_in(entry));
     else
       field.written.emplace_back(reading_.formulas().with_values(**entry.as_string()));
   }

@@ -62,6 +62,17 @@ TEST(PlotScript, DrawsEachPoint) {
   }
 }
 
+TEST(PlotScript, FilesOfOthersAreKept) {
+  const Plot plot{"t", "x", "y", {{"s", {1, 2}, {3, 4}}}};
+  for (const char* name : {"p.py", "p.svg", "p.png"}) {
+    const TemporaryFolder folder;
+    write_text(folder / name, "precious");
+    EXPECT_THROW((void)write_plot(plot, folder / "p.csv", true), std::invalid_argument) << name;
+    EXPECT_EQ(read_text(folder / name), "precious");
+    EXPECT_EQ(folder.entry_count(), 1U) << name;
+  }
+}
+
 TEST(PlotScript, APlotWithoutPointsIsStillAPicture) {
   const TemporaryFolder folder;
   const std::string told = write_plot({"empty", "x", "y", {{"nothing", {}, {}}}}, folder / "p.svg", false);

@@ -82,6 +82,20 @@ TEST_F(SpectrumCommand, WritesATableAndAPicture) {
   EXPECT_THAT(read_text(folder_ / "s.svg"), HasSubstr("pseudo-acceleration"));
 }
 
+TEST_F(SpectrumCommand, FilesOfOthersAreKept) {
+  write_text(folder_ / "r.txt", "0 0.5\n10 0.5\n");
+  SpectrumOptions options = undamped(folder_ / "r.txt");
+  for (const char* name : {"x.csv", "x.py", "x.svg", "x.png"}) {
+    const TemporaryFolder folder;
+    options.out = folder / "x.csv";
+    write_text(folder / name, "time,a\n0,1\n");
+    EXPECT_EQ(run(options), exit_status::bad_input) << name;
+    EXPECT_THAT(err_.str(), HasSubstr(std::string(name) + " is in the way: it is no "));
+    EXPECT_EQ(read_text(folder / name), "time,a\n0,1\n");
+    EXPECT_EQ(folder.entry_count(), 1U) << name;
+  }
+}
+
 TEST_F(SpectrumCommand, FaultsOfInput) {
   SpectrumOptions options = undamped(folder_ / "none.csv");
   EXPECT_EQ(run(options), exit_status::bad_input);

@@ -101,7 +101,8 @@ TEST_F(PictureCommand, RefusesUnknownColoursAndFrames) {
 
 TEST_F(PictureCommand, RefusesFramesBelowZero) {
   EXPECT_EQ(picture({"--frame", "-1"}), exit_status::bad_input);
-  EXPECT_THAT(err.str(), HasSubstr("--frame: Value -1 not in range"));
+  EXPECT_THAT(err.str(),
+              HasSubstr("--frame: value is no number of this kind (-1), a whole number of at least 0"));
 }
 
 TEST_F(PictureCommand, WritesPngOnly) {

@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(All, AtomicFile, testing::Values(Durability::process, D
 TEST(AtomicFile, OnlyFilesOfItsKindMayBeReplaced) {
   const TemporaryFolder folder;
   const auto path = folder / "picture.png";
-  const auto refuse = [&] { refuse_other_file(path, "PNG picture", {png_mark, "other"}); };
+  const auto refuse = [&] { refuse_other_file(path, {"PNG picture", {"\x89PNG", "other"}}); };
   EXPECT_NO_THROW(refuse()) << "it is not there";
   write_text(path, "");
   EXPECT_NO_THROW(refuse()) << "nothing is lost";

@@ -210,7 +210,12 @@ TEST(GltfReader, TextsAreJudgedBeforeTheyAreKept) {
   EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr("nested more than 100 deep"));
   EXPECT_THAT(refusal("[]"), HasSubstr("file is no object"));
   EXPECT_THAT(refusal(std::string("\xff\xfe", 2)), HasSubstr("1:1: text is no JSON"));
-  EXPECT_THAT(refusal(R"({"asset": {"version": "2.0", "extras": 1e999}})"), HasSubstr("no JSON"));
+  EXPECT_THAT(refusal(R"({"asset": {"version": "2.0", "extras": 1e999}})"),
+              HasSubstr("1:40: number is out of the range of double precision (1e999)"));
+  EXPECT_THAT(refusal("{\"a\": 21e-4000,\n \"b\": 1e-400}"),
+              HasSubstr("1:7: number is out of the range of double precision (21e-4000)"));
+  EXPECT_THAT(refusal("{\"a\": \"1e-400,\", \"b\": 0e-400,\n \"c\": -1e-400}"),
+              HasSubstr("2:7: number is out of the range of double precision (-1e-400)"));
 }
 
 TEST(GltfReader, CoordinatesAreNumbers) {

@@ -86,6 +86,13 @@ TEST(SampledRecord, FaultsOfVolume2HaveTheirPlace) {
       faults("0 points of accel data equally spaced at .5 sec\n"),
       "a.V2:1:1: error: line before a series has no number of values or no interval; \"N points of accel "
       "data equally spaced at DT sec\" is needed\n");
+  for (const char* layout : {"(99999999999999999999f10.3)", "(8f9223372036854775808.3)", "(8f10001)"})
+    EXPECT_EQ(
+        faults("3 points of accel data equally spaced at .5 sec, in cm/sec2. " + std::string(layout) +
+               "\n     1.000     2.000     3.000\n"),
+        "a.V2:1:1: error: line before a series has a layout that is too wide; at most 10000 values of 10000 "
+        "columns, as (8f10.3), are allowed\n")
+        << layout;
   EXPECT_EQ(
       faults("text\n"),
       "a.V2:1:1: error: volume 2 record has no series; a line \"N points of accel data equally spaced at DT "
