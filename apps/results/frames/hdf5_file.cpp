@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -78,7 +79,10 @@ std::uint64_t values_of_row(const Hdf5Table& layout) {
 }  // namespace
 
 void Hdf5File::fail(const char* action) const {
-  throw std::runtime_error(fmt::format("cannot {} {}: {}", action, path_.string(), last_hdf5_reason()));
+  const Hdf5Reason reason = last_hdf5_reason();
+  const std::string what = fmt::format("cannot {} {}", action, path_.string());
+  if (reason.system != 0) throw std::system_error(reason.system, std::generic_category(), what);
+  throw std::runtime_error(fmt::format("{}: {}", what, reason.text));
 }
 
 Hdf5File::Hdf5File(std::filesystem::path path, Access access)

@@ -26,7 +26,8 @@ struct Hdf5Table {
 };
 
 /// An open file. Paths of objects begin with '/'. All functions throw std::runtime_error with
-/// "cannot <what> <file>: <reason>"; a file whose change has failed is not to be used again.
+/// "cannot <what> <file>: <reason>", a std::system_error if the reason is the system's; a file whose change has failed is
+/// not to be used again.
 class Hdf5File {
  public:
   enum class Access {

@@ -3,8 +3,10 @@
 
 #include <hdf5.h>
 
+#include <charconv>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace ashlar {
@@ -46,8 +48,13 @@ class Hdf5Quiet {
   void* data_ = nullptr;
 };
 
-/// The cause of the last failure: the system's reason if there is one, otherwise the innermost description.
-[[nodiscard]] inline std::string last_hdf5_reason() {
+/// The cause of the last failure.
+struct Hdf5Reason {
+  int system = 0;    ///< number of the system's reason (errno); 0: there is none
+  std::string text;  ///< the innermost description, of a failure without the system's reason
+};
+
+[[nodiscard]] inline Hdf5Reason last_hdf5_reason() {
   std::string found;
   H5Ewalk2(
       H5E_DEFAULT, H5E_WALK_UPWARD,
@@ -56,10 +63,15 @@ class Hdf5Quiet {
         return 0;
       },
       &found);
-  constexpr std::string_view mark = "error message = '";
-  if (const std::size_t start = found.find(mark); start != std::string::npos)
-    found = found.substr(start + mark.size(), found.find('\'', start + mark.size()) - start - mark.size());
-  return found.empty() ? "unknown reason" : found;
+  // "file write failed: ..., errno = 28, error message = 'No space left on device', ..."
+  constexpr std::string_view mark = ", errno = ";
+  const std::size_t start = found.rfind(mark);
+  int system = 0;
+  if (start != std::string::npos) {
+    const char* const digits = found.data() + start + mark.size();
+    if (std::from_chars(digits, found.data() + found.size(), system).ec != std::errc()) system = 0;
+  }
+  return {system, found.empty() ? "unknown reason" : found};
 }
 
 }  // namespace ashlar
