@@ -75,6 +75,30 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
       share);
 }
 
+/// Warns of blocks that turn so far in a step that dda takes spin from them.
+void warn_of_turns(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.05;
+  const LargestTurn& turn = simulation.largest_turn();
+  if (!(turn.angle > ordinary)) return;
+  err << fmt::format(
+      "ashlar: warning: block {} turned by {:.2g} rad in the step to t = {:.6g} s: beyond {} rad a step "
+      "changes its spin, "
+      "use a smaller time_step\n",
+      simulation.blocks()[static_cast<std::size_t>(turn.block)].name(), turn.angle, turn.time, ordinary);
+}
+
+/// Warns of energy that the integrator has added: average-acceleration and generalized-alpha do where stiff blocks spin.
+void warn_of_energy(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.01;
+  const double added = -simulation.ledger().numerical, largest = simulation.largest_energy();
+  if (!(added > ordinary * largest)) return;
+  err << fmt::format(
+      "ashlar: warning: the integrator has added {:.3g} J, {:.2g} of the largest energy of the run: "
+      "integrator = \"dda\" "
+      "or a smaller time_step\n",
+      added, added / largest);
+}
+
 /// Warns of measures that change much with higher orders, if the order of a block was raised: blocks of order 1 are
 /// chosen for their motion.
 void warn_of_measures(const Run& run, std::ostream& err) {
@@ -176,6 +200,8 @@ void tell_results(const Run& run, const std::filesystem::path& folder, bool quie
   warn_of_depth(simulation, err);
   warn_of_friction(simulation, err);
   warn_of_hops(simulation, err);
+  warn_of_turns(simulation, err);
+  warn_of_energy(simulation, err);
   warn_of_order(run, err);
   warn_of_strength(run, err);
 }

@@ -207,6 +207,8 @@ class Simulation {
   /// Largest depth of any corner or edge, independent of contacts (depth_audit.hpp).
   [[nodiscard]] const DeepestPoint& deepest() const { return extremes().deepest; }
   /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time.
+  /// Of the run so far, without that of its static analyses.
+  [[nodiscard]] const LargestTurn& largest_turn() const { return extremes().turn; }
   [[nodiscard]] const FrictionTally& sliding_friction() const { return extremes().sliding_friction; }
   /// Sum over all steps. 0 if no joint dilates.
   [[nodiscard]] const DilatingSlip& dilating_slip() const { return extremes().dilating_slip; }

@@ -113,6 +113,13 @@ struct DilatingSlip {
   [[nodiscard]] double flown_share() const { return all > 0.0 ? in_flight / all : 0.0; }
 };
 
+/// Largest rotation of a block within one step.
+struct LargestTurn {
+  int block = -1;      ///< -1: none so far
+  double angle = 0.0;  ///< rad, to first order in the rotation
+  double time = 0.0;   ///< s, at the end of the step
+};
+
 /// Wall time of the parts of a step, s.
 struct PhaseSeconds {
   double contact_search = 0.0;
@@ -136,6 +143,7 @@ struct ContactExtremes {
   /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time
   FrictionTally sliding_friction;
   DilatingSlip dilating_slip;
+  LargestTurn turn;  ///< of steps in time
 };
 
 /// Vectors are by block.

@@ -49,8 +49,11 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   state.remembers_statics = true;
   state.ledger.clear(in_springs);
   state.ledger.start(system, state.states);
-  state.extremes = ContactExtremes{
-      .penetration = state.report.penetration, .deepest = {}, .sliding_friction = {}, .dilating_slip = {}};
+  state.extremes = ContactExtremes{.penetration = state.report.penetration,
+                                   .deepest = {},
+                                   .sliding_friction = {},
+                                   .dilating_slip = {},
+                                   .turn = {}};
   return status;
 }
 

@@ -244,6 +244,28 @@ void keep_angular_momentum(const BlockSystem& system, RunState& state, const Ste
   if (has_shared_bodies(system)) bodies.return_spins(system.share()->shared_bodies());
 }
 
+/// Rotation of a block between two configurations, rad: that of the rigid motion closest to them, to first order.
+double turn_between(const Eigen::MatrixX3d& before, const Eigen::MatrixX3d& after) {
+  // Coefficients beyond the first are those of zero mean: arms from the centroid.
+  const Eigen::Index arms = before.rows() - 1;
+  const Eigen::Matrix3d spread = before.bottomRows(arms).transpose() * before.bottomRows(arms);
+  const Eigen::Matrix3d moment = before.bottomRows(arms).transpose() * after.bottomRows(arms);
+  const Vector3 axial(moment(1, 2) - moment(2, 1), moment(2, 0) - moment(0, 2), moment(0, 1) - moment(1, 0));
+  const Eigen::Matrix3d inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
+  return inertia.ldlt().solve(axial).norm();
+}
+
+/// Notes how far blocks turn in a step. @param before states at its start
+void note_turns(const BlockSystem& system, RunState& state, const std::vector<BlockState>& before,
+                double step) {
+  LargestTurn& largest = state.extremes.turn;
+  for (int k = 0; k < system.count(); ++k) {
+    if (!system.moving()[at(k)] || !system.owns(k)) continue;
+    const double angle = turn_between(before[at(k)].position, state.states[at(k)].position);
+    if (angle > largest.angle) largest = {k, angle, state.clock.time_after(step)};
+  }
+}
+
 }  // namespace
 
 PotentialSum move_blocks(const BlockSystem& system, RunState& state, const StepProblem& problem) {
@@ -251,9 +273,10 @@ PotentialSum move_blocks(const BlockSystem& system, RunState& state, const StepP
   const bool any_free = !system.free_bodies().empty() || has_shared_bodies(system);
   const bool gives_spin_back = !scheme.mean_contacts && !scheme.is_static() && any_free;
   std::vector<BlockState> before;
-  if (gives_spin_back) before = state.states;
+  if (!scheme.is_static()) before = state.states;
   const BlockEnergies energies = move_all(system, state, problem);
   if (gives_spin_back) keep_angular_momentum(system, state, problem, before, energies.dissipated);
+  if (!scheme.is_static()) note_turns(system, state, before, scheme.step);
   return energies.potential;
 }
 

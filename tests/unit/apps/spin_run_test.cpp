@@ -1,0 +1,55 @@
+// Warnings of `ashlar run` on spin that a step does not resolve.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "unit/apps/run_fixture.hpp"
+
+namespace ashlar::spin_run_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A free cube of rock, 1 m, that spins about an axis through its centre.
+std::string spinning(double rate, const std::string& integrator) {
+  return R"([analysis]
+end_time = 0.5
+time_step = 5e-3
+gravity = [0, 0, 0]
+integrator = ")" +
+         integrator + R"("
+[contact]
+friction_angle = 30
+[[material]]
+name = "m"
+density = 2500
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "spinning"
+material = "m"
+box = { min = [0, 0, 0], max = [1, 1, 1] }
+angular_velocity = [0, 0, )" +
+         std::to_string(rate) + "]\n";
+}
+
+TEST_F(RunCommand, SpinOfMoreThanAStepResolvesIsAWarning) {
+  // 60 rad/s in steps of 5 ms: 0.3 rad, and sin(0.3) = 0.296 to first order.
+  write_text(scene_, spinning(60.0, "dda"));
+  ASSERT_EQ(run("fast"), exit_status::done) << faults_;
+  EXPECT_THAT(faults_, HasSubstr("warning: block spinning turned by 0.3 rad in the step to t = 0.0"));
+  write_text(scene_, spinning(6.0, "dda"));
+  ASSERT_EQ(run("slow"), exit_status::done) << faults_;
+  EXPECT_THAT(faults_, AllOf(Not(HasSubstr("turned by")), Not(HasSubstr("has added"))));
+}
+
+TEST_F(RunCommand, EnergyThatTheIntegratorAddsIsAWarning) {
+  write_text(scene_, spinning(60.0, "average-acceleration"));
+  ASSERT_EQ(run("gains"), exit_status::done) << faults_;
+  EXPECT_THAT(faults_, HasSubstr("warning: the integrator has added "));
+}
+
+}  // namespace
+}  // namespace ashlar::spin_run_test
