@@ -13,6 +13,7 @@
 #include "apps/results/folder/run_summary.hpp"
 #include "apps/run/crushing_run.hpp"
 #include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/check/soft_blocks.hpp"
 
 namespace ashlar {
 namespace {
@@ -47,6 +48,16 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
       "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
       "apart\n",
       name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
+}
+
+/// Warns of strains beyond those of linear elasticity, whatever causes them.
+void warn_of_strain(const Simulation& simulation, const LargestValues& largest, std::ostream& err) {
+  if (!largest.strain || !(largest.strain->value > largest_ordinary_strain)) return;
+  const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(largest.strain->block)];
+  err << fmt::format(
+      "ashlar: warning: block {} is strained by {:.3g} at the end, up to {} is ordinary: elasticity "
+      "is wrong by about its strain; check loads, and the young_modulus of {:.3g} Pa\n",
+      block.name(), largest.strain->value, largest_ordinary_strain, block.material().young_modulus);
 }
 
 /// Warns of sliding blocks whose friction differed from Coulomb's law: multipliers stop impacts by impulses without
@@ -172,7 +183,11 @@ void tell_choices(const BuiltSimulation& built, std::ostream& err) {
 void tell_results(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   tell_end(run, folder, quiet, err);
   const Simulation& simulation = run.simulation();
-  if (!quiet && !run.answer().drawn_only()) tell_answers(simulation, run.largest(), err);
+  if (!run.answer().drawn_only()) {
+    const LargestValues largest = run.largest();
+    if (!quiet) tell_answers(simulation, largest, err);
+    warn_of_strain(simulation, largest, err);
+  }
   warn_of_depth(simulation, err);
   warn_of_friction(simulation, err);
   warn_of_hops(simulation, err);
