@@ -7,12 +7,16 @@
 #include <cmath>
 #include <optional>
 #include <ostream>
+#include <string>
 #include <vector>
 
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_summary.hpp"
+#include "apps/run/contact_resolution.hpp"
 #include "apps/run/crushing_run.hpp"
 #include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/check/soft_blocks.hpp"
+#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -47,6 +51,30 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
       "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
       "apart\n",
       name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
+}
+
+/// Warns of strains beyond those of linear elasticity, whatever causes them.
+void warn_of_strain(const Simulation& simulation, const LargestValues& largest, std::ostream& err) {
+  if (!largest.strain || !(largest.strain->value > largest_ordinary_strain)) return;
+  const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(largest.strain->block)];
+  err << fmt::format(
+      "ashlar: warning: block {} is strained by {:.3g} at the end, up to {} is ordinary: elasticity "
+      "is wrong by about its strain; check loads, and the young_modulus of {:.3g} Pa\n",
+      block.name(), largest.strain->value, largest_ordinary_strain, block.material().young_modulus);
+}
+
+/// Warns of sub-faces in contact that are too coarse for the curved faces that they stand for.
+void warn_of_chords(const Simulation& simulation, std::ostream& err) {
+  // Twice the automatic tolerance: faces bend further within a step.
+  constexpr double ordinary = 2.0 * AutomaticRatios{}.chord_tolerance;
+  const std::optional<ChordError> error = largest_chord_error(simulation);
+  if (!error || !(error->share > ordinary)) return;
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  err << fmt::format(
+      "ashlar: warning: where block {} presses block {}, its curved face is {:.3g} m from the flat "
+      "sub-faces in contact, {:.2g} of the smaller block's size; up to {} is ordinary: a smaller "
+      "contact.chord_tolerance divides it further\n",
+      name(error->block), name(error->other), error->distance, error->share, ordinary);
 }
 
 /// Warns of sliding blocks whose friction differed from Coulomb's law: multipliers stop impacts by impulses without
@@ -134,11 +162,16 @@ void warn_of_order(const Run& run, std::ostream& err) {
   const std::optional<OrderError> coarse = coarse_block(simulation, errors);
   if (!coarse) return;
   const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(coarse->block)];
+  std::string remedy = "raise its order, or tie smaller blocks";
+  if (const std::optional<SmallContact> patch = unresolved_contact(simulation, coarse->block))
+    remedy = fmt::format(
+        "its contact with block {} is {:.3g} m wide, less than the {:.3g} m that this order resolves: tie "
+        "smaller blocks, small ones there",
+        simulation.blocks()[static_cast<std::size_t>(patch->other)].name(), patch->width, patch->resolved);
   err << fmt::format(
       "ashlar: warning: the estimated error of deformation is {:.0f} % (in the norm of the strain energy), "
-      "largest in "
-      "block {} of order {}: raise its order, or tie smaller blocks\n",
-      100.0 * coarse->relative(), block.name(), block.order());
+      "largest in block {} of order {}: {}\n",
+      100.0 * coarse->relative(), block.name(), block.order(), remedy);
 }
 
 /// Warns of a factor that needs strong joints.
@@ -196,7 +229,12 @@ void tell_choices(const BuiltSimulation& built, std::ostream& err) {
 void tell_results(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   tell_end(run, folder, quiet, err);
   const Simulation& simulation = run.simulation();
-  if (!quiet && !run.answer().drawn_only()) tell_answers(simulation, run.largest(), err);
+  if (!run.answer().drawn_only()) {
+    const LargestValues largest = run.largest();
+    if (!quiet) tell_answers(simulation, largest, err);
+    warn_of_strain(simulation, largest, err);
+    warn_of_chords(simulation, err);
+  }
   warn_of_depth(simulation, err);
   warn_of_friction(simulation, err);
   warn_of_hops(simulation, err);

@@ -3,11 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
 #include "geometry/index.hpp"
 #include "mechanics/block/order_change.hpp"
+#include "mechanics/contact/tie.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -68,6 +70,30 @@ std::vector<PointForces> contact_forces(const Simulation& simulation) {
   return forces;
 }
 
+/// Force of ties on a block, with the size of its rounding errors.
+struct TieForce {
+  Eigen::MatrixX3d force;  ///< (p, 3), N m^-3/2
+  double rounding = 0.0;   ///< N m^-3/2
+};
+
+/// @param high the block with functions of higher order, at a position
+TieForce tie_force(const Simulation& simulation, int index, const BlockModel& high,
+                   const Eigen::MatrixX3d& position) {
+  TieForce sum{Eigen::MatrixX3d::Zero(high.basis().size(), 3), 0.0};
+  for (const TiedBlocks& tied : simulation.system().ties()) {
+    if (tied.a != index && tied.b != index) continue;
+    const int other = tied.a == index ? tied.b : tied.a;
+    const BlockModel& block = simulation.blocks()[at(other)];
+    const Eigen::MatrixX3d& there = simulation.states()[at(other)].position;
+    const Tie tie = tie_between(high.solid(), high.basis(), block.solid(), block.basis());
+    sum.force -= tied.stiffness * (tie.a.transpose() * (tie.a * position - tie.b * there));
+    // The gap is a small difference of large places.
+    const double places = tie.a.norm() * position.norm() + tie.b.norm() * there.norm();
+    sum.rounding += tied.stiffness * tie.a.norm() * places * std::numeric_limits<double>::epsilon();
+  }
+  return sum;
+}
+
 /// Empty: the shape of the block allows no higher order.
 std::optional<OrderError> error_of(const Simulation& simulation, int index, const PointForces& contact) {
   const BlockModel& block = simulation.blocks()[at(index)];
@@ -78,12 +104,14 @@ std::optional<OrderError> error_of(const Simulation& simulation, int index, cons
   const Eigen::MatrixX3d position = change_order(block, state, high).state.position;
   const ElasticResponse elastic = high.elastic(position);
   const Vector3 gravity = simulation.system().settings().gravity_at(simulation.time());
-  const Eigen::MatrixX3d outer = high.external_force(gravity, simulation.time()) + contact.on(high.basis());
+  const TieForce ties = tie_force(simulation, index, high, position);
+  const Eigen::MatrixX3d outer =
+      high.external_force(gravity, simulation.time()) + contact.on(high.basis()) + ties.force;
   const Eigen::VectorXd residual = part_on_new_functions(block, high, outer - elastic.force);
   OrderError error{index, block.elastic(state.position).energy, 0.0};
   // Sums of forces are rounded; a block without them has no error.
   constexpr double rounding = 1e-11;
-  if (!(residual.norm() > rounding * outer.norm() + high.force_rounding())) return error;
+  if (!(residual.norm() > rounding * outer.norm() + high.force_rounding() + ties.rounding)) return error;
   Eigen::MatrixXd stiffness = high.tangent(position, elastic, true);
   // Rigid motions, which the residual does not contain, have no stiffness.
   constexpr double of_largest = 1e-12;
@@ -127,8 +155,8 @@ std::vector<OrderError> order_errors(const Simulation& simulation) {
   for (int k = 0; k < static_cast<int>(simulation.blocks().size()); ++k) {
     const BlockModel& block = simulation.blocks()[at(k)];
     if (!simulation.system().moving()[at(k)] || block.rigid() || block.incremental() != nullptr ||
-        block.quiet() || block.driven() || block.initial_stress() || simulation.system().is_tied(k) ||
-        block.order() >= largest_order(block) || bolted.contains(k))
+        block.quiet() || block.driven() || block.initial_stress() || block.order() >= largest_order(block) ||
+        bolted.contains(k))
       continue;
     asked.push_back(k);
   }

@@ -5,14 +5,15 @@
 //     r = F_external + F_contact - F_elastic(u)
 // is zero on the functions of order n, but for inertia, which is orthogonal to the others. Then
 //     eta^2 = r' K^-1 r                                              r on the functions of degree n + 1 to m alone
-// is the square of the distance to the solution of order m in the norm of the strain energy, with the contact
-// forces as they are; eta^2 / 2 is the strain energy that the block lacks. R. E. Bank and R. K. Smith, SIAM J. Numer.
+// is the square of the distance to the solution of order m in the norm of the strain energy, with the forces of
+// contacts and ties as they are; eta^2 / 2 is the strain energy that the block lacks. R. E. Bank and R. K. Smith, SIAM J. Numer.
 // Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
 // the contacts and errors of their forces are not in it.
 //
-// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order or whose shape allows no higher
-// one, and those with ties, bolts or quiet faces, whose forces are not recorded, with supports that move, or with
-// initial stress, whose energy is not that of their deformation.
+// The force of a tie is its stiffness times the gap over the common faces (mechanics/contact/tie.hpp), and so is known on
+// the functions of all orders. Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order or
+// whose shape allows no higher one, and those with bolts or quiet faces, whose forces are not recorded, with supports that
+// move, or with initial stress, whose energy is not that of their deformation.
 #pragma once
 
 #include <optional>

@@ -210,6 +210,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   summary["largest_displacement"] = json_of(largest.displacement, simulation);
   summary["largest_compression"] = json_of(largest.compression, simulation);
   summary["largest_tension"] = json_of(largest.tension, simulation);
+  summary["largest_strain"] = json_of(largest.strain, simulation);
   const BrokenJoints broken = ranks.empty() ? broken_joints(simulation) : broken_joints(ranks);
   summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
   if (!simulation.bolts().empty()) summary["support"] = support_summary(simulation);

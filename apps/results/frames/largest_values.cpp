@@ -9,6 +9,13 @@ void take(std::optional<PlacedValue>& largest, double value, int block, const Ve
   if (value > (largest ? largest->value : 0.0)) largest = PlacedValue{value, block, place};
 }
 
+/// Largest magnitude of a principal strain of Hooke's law. @param principal stresses, Pa
+double largest_strain(const Material& material, const Vector3& principal) {
+  const Vector3 stress = (1.0 + material.poisson_ratio) * principal -
+                         Vector3::Constant(material.poisson_ratio * principal.sum());
+  return stress.cwiseAbs().maxCoeff() / material.young_modulus;
+}
+
 }  // namespace
 
 LargestValues largest_values(const Simulation& simulation, const std::vector<DrawnSurface>& surfaces,
@@ -28,6 +35,7 @@ LargestValues largest_values(const Simulation& simulation, const std::vector<Dra
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(motion.stress, Eigen::EigenvaluesOnly);
       take(largest.compression, -principal.eigenvalues()[0], b, motion.place);
       take(largest.tension, principal.eigenvalues()[2], b, motion.place);
+      take(largest.strain, largest_strain(block.material(), principal.eigenvalues()), b, motion.place);
     }
   }
   return largest;

@@ -1,4 +1,4 @@
-// Places of the largest displacement, compression and tension of a state.
+// Places of the largest displacement, compression, tension and strain of a state.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,20 @@ namespace ashlar {
 
 /// A value and its place.
 struct PlacedValue {
-  double value;  ///< m or Pa, > 0
+  double value;  ///< m, Pa or 1, > 0
   int block;
   Vector3 place;  ///< current coordinates, m
 };
 
 /// Extremes over all present blocks that are not fixed, at the points where they are drawn: corners, and for blocks
-/// that may bend points between them too. Empty: no displacement, compression or tension.
+/// that may bend points between them too. Empty: no displacement, compression, tension or strain.
 struct LargestValues {
   std::optional<PlacedValue> displacement;  ///< m
   std::optional<PlacedValue> compression;   ///< Pa, minus the least principal stress
   std::optional<PlacedValue> tension;       ///< Pa, the largest principal stress
+  /// Largest magnitude of a principal strain of the stress by Hooke's law, whatever caused it: initial stress counts, too.
+  /// Of St.-Venant-Kirchhoff blocks it differs from the Green strain by the square of the strain
+  std::optional<PlacedValue> strain;
 };
 
 /// @param surfaces of each block. @param origin displacements to be subtracted, by block and point; empty: none

@@ -38,7 +38,8 @@ function answerRows(summary) {
   }
   const absolute = current.relative === null ? "" : ", absolute";
   for (const [key, name, unit] of [["largest_displacement", "largest displacement" + absolute, "m"],
-    ["largest_compression", "largest compression", "Pa"], ["largest_tension", "largest tension", "Pa"]])
+    ["largest_compression", "largest compression", "Pa"], ["largest_tension", "largest tension", "Pa"],
+    ["largest_strain", "largest strain", ""]])
     if (key in summary) add(name, summary[key] ? placedText(summary[key], unit) : "none");
   const broken = summary.broken;
   if (broken && broken.of_area > 0)
@@ -50,7 +51,7 @@ function answerRows(summary) {
 }
 
 const ANSWERED = ["scene", "title", "status", "message", "moving", "displaced", "largest_displacement", "largest_compression",
-  "largest_tension", "broken", "deepest", "factor_of_safety", "load_factor"];
+  "largest_tension", "largest_strain", "broken", "deepest", "factor_of_safety", "load_factor"];
 
 const percentText = (share) => short(100 * share) + " %";
 

@@ -74,7 +74,7 @@ TEST(StaticAccuracy, GoesOnWhereSupportsLeaveNoMotionToLowOrders) {
   EXPECT_NEAR(middle(simulation)[0].values[0] / middle(fine)[0].values[0], 1.0, 0.1);
 }
 
-// Errors of tied blocks are not estimated. Halves of such a plate, held at three sides, have no motion below order 3.
+// Halves of such a plate, tied and held at three sides, have no motion below order 3.
 TEST(StaticAccuracy, GoesOnWhereTiedBlocksHaveNoMotionYet) {
   const GoalValues middle = [](const Simulation& now) {
     return std::vector<Goal>{{"middle", {place_of(now, 0, {0.5, 0.5, 0.1}).z() - 0.1}}};
@@ -178,7 +178,7 @@ TEST(StaticAccuracy, CanBeEnded) {
   EXPECT_TRUE(rounds.orders.empty());
 }
 
-// Two halves of the bar, tied: blocks with ties are not estimated. The top sinks by rho g h^2 / 2E.
+// Two halves of the bar, tied. The top sinks by rho g h^2 / 2E.
 TEST(StaticAccuracy, RaisesTheOrdersOfTiedBlocks) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-1, -1, -1}, {2, 2, 0}));

@@ -64,6 +64,42 @@ TEST(OrderError, CountsContactForces) {
   }
 }
 
+// Halves of the hanging bar, tied. Order 1 has their mean stresses rho g h / 4 and 3 rho g h / 4: of the energy of the
+// whole, 8/3 in units of that of rho g h / 2 all over a half, each lacks 1/12.
+TEST(OrderError, CountsForcesOfTies) {
+  for (const int order : {1, 2}) {
+    std::vector<BlockModel> blocks;
+    for (const double low : {0.0, height / 2.0}) {
+      BlockDefinition block =
+          block_of("half", Polyhedron(make_box({0, 0, low}, {area, 1, low + height / 2.0})), bar, order);
+      if (low > 0.0) block.supports.push_back({Plane{{0, 0, height}, Vector3::UnitZ()}});
+      blocks.emplace_back(std::move(block));
+    }
+    Simulation simulation(std::move(blocks), {{}, {}}, same_law({1e9, 1e9, 0.5}), SimulationSettings{},
+                          {{0, 1, 1e12}});
+    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+    const auto errors = order_errors(simulation);
+    ASSERT_EQ(errors.size(), 2U);
+    for (const OrderError& error : errors)
+      EXPECT_NEAR(error.lacks / exact, order == 1 ? 1.0 / 12.0 / (8.0 / 3.0) : 0.0, 1e-5) << order;
+    EXPECT_NEAR(relative_error(errors), order == 1 ? 0.25 : 0.0, 1e-4) << order;
+  }
+}
+
+// Far from the origin the gap of a tie is the difference of large places.
+TEST(OrderError, RoundingOfTiesIsNone) {
+  std::vector<BlockModel> blocks;
+  for (const double low : {0.0, 1.0 / 3.0})
+    blocks.emplace_back(block_of(
+        "part", Polyhedron(make_box({1e3, 7e2, low}, {1e3 + 0.1, 7e2 + 0.3, low + 1.0 / 3.0})), bar, 2));
+  Simulation simulation(std::move(blocks), {{{1, 0, 3}, {0, 0, 0}}, {{1, 0, 3}, {0, 0, 0}}},
+                        same_law({1e9, 1e9, 0.5}), SimulationSettings{}, {{0, 1, 3e12}});
+  ASSERT_TRUE(run_until(simulation, 0.01));
+  const auto errors = order_errors(simulation);
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_EQ(relative_error(errors), 0.0);
+}
+
 TEST(OrderError, WithoutDeformationThereIsNone) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(bar_of(2));
