@@ -166,7 +166,7 @@ bool Run::search_piece() {
     const SceneAnalysis& analysis = whole().analysis;
     const double shown = shown_factor(*answer_.bracket, search_of(analysis));
     built_ = built_stage(scene_, manner_.threads, manner_.ranks, trial_factors(analysis, shown));
-    if (!earlier_) start_at_rest(*scene_, shown, manner_.threads, manner_.ranks, built_.simulation);
+    if (!earlier_) start_at_rest(*scene_, manner_.threads, manner_.ranks, built_.simulation);
   }
   if (earlier_) built_.simulation.restore(earlier_->simulation);
   search_.reset();

@@ -12,10 +12,10 @@ namespace ashlar {
 
 namespace {
 
-/// Factors of the state at rest, from which the path to a factor begins.
-TrialFactors first_factors(const SceneAnalysis& analysis, double factor) {
-  constexpr double first_share = 0.5, no_load = 0.0;
-  return analysis.type == SceneAnalysis::Type::safety ? TrialFactors{first_share * factor, 1.0}
+/// Factors of the state at rest, from which the path begins.
+TrialFactors first_factors(const SceneAnalysis& analysis) {
+  constexpr double nothing_slides = 0.1, no_load = 0.0;
+  return analysis.type == SceneAnalysis::Type::safety ? TrialFactors{nothing_slides, 1.0}
                                                       : TrialFactors{1.0, no_load};
 }
 
@@ -33,7 +33,7 @@ TrialRun::TrialRun(const LoadedScene& scene, double factor, int threads, const R
       ranks_(ranks),
       factor_(factor),
       end_time_(scene.scene.analysis.end_time),
-      built_(built_under(first_factors(scene.scene.analysis, factor), scene, threads, ranks)) {
+      built_(built_under(first_factors(scene.scene.analysis), scene, threads, ranks)) {
   if (built_)
     built_->simulation.gather_results();
   else
@@ -105,10 +105,9 @@ void TrialRun::restore(const RunCheckpoint& state) {
   changes_ = state.changes;
 }
 
-void start_at_rest(const LoadedScene& scene, double factor, int threads, const RunRanks* ranks,
-                   Simulation& under_factor) {
+void start_at_rest(const LoadedScene& scene, int threads, const RunRanks* ranks, Simulation& under_factor) {
   std::optional<BuiltSimulation> rest =
-      built_under(first_factors(scene.scene.analysis, factor), scene, threads, ranks);
+      built_under(first_factors(scene.scene.analysis), scene, threads, ranks);
   if (!rest) return;
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing)

@@ -1,6 +1,6 @@
 // A static analysis of a search for a factor, iteration by iteration, along the load path of limit analysis
-// (solver/statics/load_path.hpp): blocks first come to rest under their first loads, for a factor of safety with twice
-// the strength of the trial, for a capacity without the multiplied loads, and from there under the factor.
+// (solver/statics/load_path.hpp): blocks first come to rest under their first loads, for a factor of safety with ten times
+// their strength, for a capacity without the multiplied loads, and from there under the factor.
 #pragma once
 
 #include <optional>
@@ -55,7 +55,6 @@ class TrialRun {
 };
 
 /// Starts a simulation of the scene under the factor from the state at rest of the first loads, if they have one.
-void start_at_rest(const LoadedScene& scene, double factor, int threads, const RunRanks* ranks,
-                   Simulation& under_factor);
+void start_at_rest(const LoadedScene& scene, int threads, const RunRanks* ranks, Simulation& under_factor);
 
 }  // namespace ashlar

@@ -21,8 +21,9 @@ constexpr int most_strengths = 14;
 /// Bodies up to which the compressive strength is searched: each trial lets joints yield point by point.
 constexpr std::size_t most_bodies_of_strength = 40;
 constexpr double strength_accuracy = 1.05;
-/// Strength factor at the start of the path: half the associated limit, or less if blocks move there, not less than this.
-constexpr double first_share = 0.5, nothing_slides = 0.1;
+/// Strength factor at the start of the path: with ten times their strength joints neither slide nor tear, unless blocks
+/// would wedge at any friction that there is.
+constexpr double nothing_slides = 0.1;
 
 /// Search along one path.
 class PathSearch {
@@ -32,10 +33,7 @@ class PathSearch {
       : path_(path), sought_(sought), search_(search), associated_(associated), goes_on_(goes_on) {}
 
   PathAnswer run() {
-    if (!begin()) {
-      note_motion();
-      return std::move(answer_);
-    }
+    if (!begin()) return std::move(answer_);
     for (int n = 0; n < most_path_trials; ++n) {
       const std::optional<double> next = next_factor();
       if (!next || !attempt(*next)) break;
@@ -45,7 +43,6 @@ class PathSearch {
       answer_.proven = true;
     }
     answer_.resolved = is_resolved();
-    note_motion();
     if (answer_.lower) answer_.displacement = rest_.rbegin()->second.end.displacement;
     if (!answer_.interrupted) find_onset();
     const bool few = path_.model().bodies.size() <= most_bodies_of_strength;
@@ -60,35 +57,21 @@ class PathSearch {
 
   /// The state at the start of the path. @return false if blocks move before it
   bool begin() {
-    if (sought_ == Sought::load) return begin_at(0.0);
-    // Joints of much more strength wedge blocks that would slide apart, with forces of no use (notes/load_path.md).
-    double factor = first_share * associated_.lower.value_or(nothing_slides / first_share);
-    for (; factor > nothing_slides; factor *= 0.5)
-      if (begin_at(factor)) return true;
-    return begin_at(nothing_slides);
-  }
-
-  /// @return true if blocks rest under a factor
-  bool begin_at(double factor) {
-    PathTrial trial = path_.to(path_.unloaded(), factors(factor));
-    note(factor, trial);
+    const LimitFactors first =
+        sought_ == Sought::strength ? LimitFactors{nothing_slides, 1.0} : LimitFactors{1.0, 0.0};
+    PathTrial trial = path_.to(path_.unloaded(), first);
+    note(0.0, trial);
     if (trial.outcome == LimitOutcome::stands) {
       for (BodyVelocity& moved : trial.end.moved) moved.setZero();
       trial.end.displacement = 0.0;
-      rest_.emplace(factor, std::move(trial));
-      if (factor >= search_.lower) answer_.lower = factor;
+      rest_.emplace(0.0, std::move(trial));
       return true;
     }
-    answer_.upper = std::max(factor, search_.lower);
-    answer_.resolved = *answer_.upper <= search_.lower;
-    set_moves(std::move(trial));
-    return false;
-  }
-
-  void set_moves(PathTrial&& trial) {
+    answer_.upper = search_.lower;
+    answer_.resolved = true;
     answer_.proven = trial.outcome == LimitOutcome::moves;
-    moves_.reset();
-    if (answer_.proven) moves_ = std::move(trial);
+    if (answer_.proven) answer_.motion = path_.motion_of(trial, first);
+    return false;
   }
 
   void note(double factor, const PathTrial& trial) {
@@ -96,10 +79,6 @@ class PathSearch {
     kept.factors = factors(factor);
     kept.outcome = trial.outcome;
     kept.iterations = trial.iterations;
-  }
-
-  void note_motion() {
-    if (moves_) answer_.motion = path_.motion_of(*moves_, factors(*answer_.upper));
   }
 
   /// @return false if the search ends
@@ -117,7 +96,9 @@ class PathSearch {
       return true;
     }
     answer_.upper = factor;
-    set_moves(std::move(trial));
+    answer_.proven = trial.outcome == LimitOutcome::moves;
+    answer_.motion.reset();
+    if (answer_.proven) answer_.motion = path_.motion_of(trial, factors(factor));
     return true;
   }
 
@@ -172,14 +153,8 @@ class PathSearch {
   void find_onset() {
     const PathState& start = rest_.begin()->second.end;
     const auto yields = [&](const PathTrial& trial) { return path_.yielding_joints(start, trial); };
-    const bool from_strength = sought_ == Sought::strength;
-    auto after = std::find_if(from_strength ? rest_.begin() : std::next(rest_.begin()), rest_.end(),
+    auto after = std::find_if(std::next(rest_.begin()), rest_.end(),
                               [&](const auto& one) { return !yields(one.second).empty(); });
-    if (after == rest_.begin()) {
-      answer_.onset = after->first;
-      answer_.onset_joints = yields(after->second);
-      return;
-    }
     double low = std::prev(after)->first, high = 0.0;
     PathTrial before = std::prev(after)->second, first;
     if (after == rest_.end()) {
@@ -215,7 +190,6 @@ class PathSearch {
   const LimitBracket& associated_;
   const std::function<bool()>& goes_on_;
   PathAnswer answer_;
-  std::optional<PathTrial> moves_;    ///< at `upper`
   std::map<double, PathTrial> rest_;  ///< by factor, states at rest in the order of the path; 0: its start
 };
 

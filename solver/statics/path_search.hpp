@@ -3,9 +3,6 @@
 // Each factor is tried from the state at rest under the largest factor below it, so that a factor that stands has been
 // reached at rest all the way. Beyond the associated limit (limit_analysis.hpp) nothing stands, whatever the path.
 //
-// Strengths fall from those at half the associated limit, or from larger ones if blocks move there, from at most ten times
-// those of the scene.
-//
 // A trial without a result in bounded work counts as one that moves: a factor is on the safe side. `proven` tells.
 #pragma once
 
@@ -25,8 +22,8 @@ struct PathAnswer {
   bool resolved = false;        ///< upper / lower - 1 is within the tolerance, or one of them is empty
   bool interrupted = false;
   double displacement = 0.0;  ///< m, at `lower`, from the start of the path
-  /// Factor at which a joint first slides or opens over its whole face, within 1 % or the tolerance, or the start of falling
-  /// strengths if one does there; empty: none up to `lower`
+  /// Factor at which a joint first slides or opens over its whole face, within 1 % or the tolerance; empty: none up to
+  /// `lower`
   std::optional<double> onset;
   double onset_displacement = 0.0;    ///< m
   std::vector<PairKey> onset_joints;  ///< blocks of the joints that yield there
