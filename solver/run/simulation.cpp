@@ -15,9 +15,7 @@
 #include "solver/run/gathered_run.hpp"
 #include "solver/run/stage_start.hpp"
 #include "solver/statics/loose_blocks.hpp"
-#include "solver/statics/motion_doubt.hpp"
 #include "solver/statics/rigid_model.hpp"
-#include "solver/statics/rigid_verdict.hpp"
 #include "solver/statics/shared_verdict.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
@@ -277,16 +275,7 @@ StaticStatus Simulation::static_step(double end_time) {
 StaticStatus Simulation::static_step(double end_time, double far) {
   told_.reset();
   wake_all(system_, state_);
-  const StaticStatus status = ashlar::static_step(context(), end_time, far);
-  if (status == StaticStatus::balancing) return status;
-  if (status == StaticStatus::moving && doubt_of_motion(system_, state_) == MotionDoubt::none) return status;
-  const StaticStatus verdict = shared_ != nullptr && !system_.share()->ranks().alone()
-                                   ? shared_verdict(context(), end_time, status)
-                                   : rigid_verdict(system_, state_, end_time, status);
-  if (verdict != StaticStatus::moving || doubt_of_motion(system_, state_) != MotionDoubt::no_acceleration)
-    return verdict;
-  state_.statics.moving = false;
-  return StaticStatus::not_converged;
+  return judged(context(), end_time, ashlar::static_step(context(), end_time, far));
 }
 
 void Simulation::wake() {

@@ -206,9 +206,9 @@ class Simulation {
   [[nodiscard]] double largest_penetration() const { return extremes().penetration; }
   /// Largest depth of any corner or edge, independent of contacts (depth_audit.hpp).
   [[nodiscard]] const DeepestPoint& deepest() const { return extremes().deepest; }
-  /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time.
-  /// Of the run so far, without that of its static analyses.
+  /// Of all steps in time so far.
   [[nodiscard]] const LargestTurn& largest_turn() const { return extremes().turn; }
+  /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time.
   [[nodiscard]] const FrictionTally& sliding_friction() const { return extremes().sliding_friction; }
   /// Sum over all steps. 0 if no joint dilates.
   [[nodiscard]] const DilatingSlip& dilating_slip() const { return extremes().dilating_slip; }

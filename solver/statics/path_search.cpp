@@ -43,6 +43,7 @@ class PathSearch {
       answer_.proven = true;
     }
     answer_.resolved = is_resolved();
+    if (moves_) answer_.motion = path_.motion_of(*moves_, factors(*answer_.upper));
     if (answer_.lower) answer_.displacement = rest_.rbegin()->second.end.displacement;
     if (!answer_.interrupted) find_onset();
     const bool few = path_.model().bodies.size() <= most_bodies_of_strength;
@@ -97,8 +98,8 @@ class PathSearch {
     }
     answer_.upper = factor;
     answer_.proven = trial.outcome == LimitOutcome::moves;
-    answer_.motion.reset();
-    if (answer_.proven) answer_.motion = path_.motion_of(trial, factors(factor));
+    moves_.reset();
+    if (answer_.proven) moves_ = std::move(trial);
     return true;
   }
 
@@ -190,6 +191,7 @@ class PathSearch {
   const LimitBracket& associated_;
   const std::function<bool()>& goes_on_;
   PathAnswer answer_;
+  std::optional<PathTrial> moves_;    ///< at `upper`
   std::map<double, PathTrial> rest_;  ///< by factor, states at rest in the order of the path; 0: its start
 };
 

@@ -6,6 +6,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/statics/motion_doubt.hpp"
 #include "solver/statics/rigid_verdict.hpp"
 
 namespace ashlar {
@@ -137,9 +138,25 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
   if (told.status == status) return status;
   if (told.status == StaticStatus::moving)
     take_motion(told, run.state.statics);
-  else
+  else if (told.status == StaticStatus::equilibrium)
     take_equilibrium(system, told, end_time, run.state);
+  else
+    run.state.statics.moving = false;
   return told.status;
+}
+
+StaticStatus judged(const RunContext& run, double end_time, StaticStatus status) {
+  if (status == StaticStatus::balancing) return status;
+  if (status == StaticStatus::moving && doubt_of_motion(run.system, run.state) == MotionDoubt::none)
+    return status;
+  const bool several = run.shared != nullptr && !run.system.share()->ranks().alone();
+  const StaticStatus verdict = several ? shared_verdict(run, end_time, status)
+                                       : rigid_verdict(run.system, run.state, end_time, status);
+  if (verdict != StaticStatus::moving ||
+      doubt_of_motion(run.system, run.state) != MotionDoubt::no_acceleration)
+    return verdict;
+  run.state.statics.moving = false;
+  return StaticStatus::not_converged;
 }
 
 }  // namespace ashlar

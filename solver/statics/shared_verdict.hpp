@@ -14,4 +14,8 @@ namespace ashlar {
 /// @return the same on all ranks
 [[nodiscard]] StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus status);
 
+/// Verdict on an iteration of a static analysis of any number of ranks: that of rigid blocks where it ended without a
+/// result, in equilibrium, or moving with doubts (motion_doubt.hpp); otherwise the status. Collective.
+[[nodiscard]] StaticStatus judged(const RunContext& run, double end_time, StaticStatus status);
+
 }  // namespace ashlar

@@ -132,6 +132,14 @@ std::string failure_of(const std::string& interpreter, const std::string& script
   return last.empty() ? "failed" : last;
 }
 
+std::string name_with(const std::filesystem::path& picture, const char* extension) {
+  return std::filesystem::path(picture).replace_extension(extension).string();
+}
+
+FileKind script_kind() {
+  return {"script of a plot", {plot_script_mark}};
+}
+
 }  // namespace
 
 std::string plot_script(const Plot& plot) {
@@ -146,14 +154,6 @@ std::string plot_script(const Plot& plot) {
   // A text of JSON is one of Python too.
   return fmt::format("{}plot = json.loads({})\n{}", script_head, json_text(Json(json_text(all))),
                      script_tail);
-}
-
-static std::string name_with(const std::filesystem::path& picture, const char* extension) {
-  return std::filesystem::path(picture).replace_extension(extension).string();
-}
-
-static FileKind script_kind() {
-  return {"script of a plot", {plot_script_mark}};
 }
 
 void refuse_other_plot(const std::filesystem::path& picture, bool png) {

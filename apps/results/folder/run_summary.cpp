@@ -153,6 +153,26 @@ void move_places(nlohmann::ordered_json& json, const Vector3& way) {
   }
 }
 
+/// Adds the extremes of the last state.
+void add_largest(nlohmann::ordered_json& summary, const LargestValues& largest,
+                 const Simulation& simulation) {
+  summary["largest_displacement"] = json_of(largest.displacement, simulation);
+  summary["largest_compression"] = json_of(largest.compression, simulation);
+  summary["largest_tension"] = json_of(largest.tension, simulation);
+  summary["largest_strain"] = json_of(largest.strain, simulation);
+}
+
+/// Values that were chosen automatically.
+nlohmann::ordered_json json_of(const std::vector<AutomaticChoice>& choices) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const AutomaticChoice& choice : choices) {
+    nlohmann::ordered_json value;
+    std::visit([&](const auto& chosen) { value = chosen; }, choice.value);
+    list.push_back({{"key", choice.key}, {"value", value}, {"unit", choice.unit}});
+  }
+  return list;
+}
+
 }  // namespace
 
 void add_origin(nlohmann::ordered_json& summary, const Vector3& origin) {
@@ -207,10 +227,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   if (const DeepestPoint& deepest = simulation.deepest(); deepest.depth > 0.0)
     summary["deepest"] = json_of(deepest, simulation);
   if (!built.overlaps.empty()) summary["known_overlaps"] = known_overlaps_of(built);
-  summary["largest_displacement"] = json_of(largest.displacement, simulation);
-  summary["largest_compression"] = json_of(largest.compression, simulation);
-  summary["largest_tension"] = json_of(largest.tension, simulation);
-  summary["largest_strain"] = json_of(largest.strain, simulation);
+  add_largest(summary, largest, simulation);
   const BrokenJoints broken = ranks.empty() ? broken_joints(simulation) : broken_joints(ranks);
   summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
   if (!simulation.bolts().empty()) summary["support"] = support_summary(simulation);
@@ -224,13 +241,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
   summary["energy_max"] = simulation.largest_energy();
   summary["counts"] = counts_of(built);
-  nlohmann::ordered_json automatic = nlohmann::ordered_json::array();
-  for (const AutomaticChoice& choice : built.choices) {
-    nlohmann::ordered_json value;
-    std::visit([&](const auto& chosen) { value = chosen; }, choice.value);
-    automatic.push_back({{"key", choice.key}, {"value", value}, {"unit", choice.unit}});
-  }
-  summary["automatic"] = automatic;
+  summary["automatic"] = json_of(built.choices);
   nlohmann::ordered_json versions = nlohmann::ordered_json::object();
   versions["ashlar"] = program_version();
   for (const auto& [name, version] : tool_versions()) versions[name] = version;

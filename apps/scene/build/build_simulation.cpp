@@ -319,7 +319,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
         fmt::format("no model can be made of the scene ({}), other values are needed", error.what()));
     return std::nullopt;
   };
-  // What the checks of scenes do not foresee. Checks name the key.
+  // Checks of scenes name the key; values that they do not foresee end here.
   try {
     return built_of(loaded, threads, diagnostics, preparation, factors, ranks);
   } catch (const std::invalid_argument& error) {

@@ -366,5 +366,22 @@ point = [10, 0.5, 0.5]
   EXPECT_THAT(faults_, Not(HasSubstr("estimated error")));
 }
 
+// A column on a pad that gives way under it, which lies on a fixed floor: it sinks by more than blocks may go, but no
+// contact lets it fall.
+TEST_F(StaticRun, BlockThatSinksOntoAFixedFloorIsNotMoving) {
+  write_text(scene_, R"(analysis = { type = "static" }
+contact = { friction_angle = 30 }
+material = [{ name = "pad", density = 1200, young_modulus = 5e4, poisson_ratio = 0.3 },
+            { name = "stone", density = 2500, young_modulus = 3e10, poisson_ratio = 0.2 }]
+block = [
+  { name = "floor", fixed = true, box = { min = [-5, -5, -2], max = [5, 5, 0] } },
+  { name = "pad", material = "pad", order = 1, box = { min = [0, 0, 0], max = [2, 2, 0.5] } },
+  { name = "column", material = "stone", box = { min = [0, 0, 0.5], max = [2, 2, 4.5] } },
+]
+)");
+  EXPECT_EQ(run("sinks"), exit_status::failed);
+  EXPECT_EQ(nlohmann::json::parse(text("sinks/summary.json"))["status"], "not converged");
+}
+
 }  // namespace
 }  // namespace ashlar::static_run_test

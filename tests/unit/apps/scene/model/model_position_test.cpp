@@ -189,7 +189,7 @@ TEST(ModelPosition, ASceneFarAwayIsTheSceneAtTheOrigin) {
   // The formula as it was written: its parameters have other values.
   for (auto* json : {&of_far, &of_near}) (*json)["block"][0]["load"][0].erase("traction");
   EXPECT_EQ(of_far, of_near);
-  // What JSON does not have: regions.
+  // Regions are not in JSON.
   const auto box_of_assign = [](const Scene& scene) {
     return std::get<SceneBox>(std::get<SceneShape>(scene.assign[0].inside->space)).min;
   };
