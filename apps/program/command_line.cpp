@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <new>
 #include <ostream>
 #include <system_error>
@@ -29,6 +28,7 @@
 #include "apps/program/view/picture_command.hpp"
 #include "apps/program/view/view_command.hpp"
 #include "apps/results/folder/program_version.hpp"
+#include "apps/results/system/output_file.hpp"
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 
@@ -103,15 +103,8 @@ int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::os
 }  // namespace
 
 int exit_status::of(const std::exception& failure) {
-  constexpr std::array of_system = {std::errc::no_space_on_device, std::errc::io_error,
-                                    std::errc::file_too_large, std::errc::too_many_files_open,
-                                    std::errc::too_many_files_open_in_system};
   const auto* error = dynamic_cast<const std::system_error*>(&failure);
-  const bool told =
-      error != nullptr && (error->code() == std::error_code(EDQUOT, std::generic_category()) ||
-                           std::any_of(of_system.begin(), of_system.end(),
-                                       [&](std::errc reason) { return error->code() == reason; }));
-  return told ? failed : bad_input;
+  return error != nullptr && is_fault_of_device(error->code()) ? failed : bad_input;
 }
 
 int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err,

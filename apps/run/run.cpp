@@ -343,7 +343,8 @@ void Run::end(RunStatus status) {
       throw;
     } catch (const std::exception& error) {
       status_ = stage_status_ = RunStatus::failed;
-      if (message_.empty()) message_ = fmt::format("the summary could not be written: {}", fault_text(error));
+      message_ += fmt::format("{}the summary could not be written: {}", message_.empty() ? "" : "; ",
+                              fault_text(error));
       save_after_failure(**observer);
     }
   }

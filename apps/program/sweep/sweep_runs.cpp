@@ -160,7 +160,7 @@ class Runs {
       log.emplace(log_of(runs_[run].options), OutputFile::Start::empty);
     } catch (const std::runtime_error& fault) {
       err_ << fmt::format("ashlar: error: {}; a plain file is written there\n", fault_text(fault));
-      note(run, exit_status::bad_input);
+      note(run, exit_status::of(fault));
       return;
     }
     try {

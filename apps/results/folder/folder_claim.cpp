@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/results/system/output_file.hpp"
 #include "apps/results/system/this_process.hpp"
 
 namespace ashlar {
@@ -101,6 +102,12 @@ void refuse_strange_folder(const std::filesystem::path& folder, ClaimPurpose pur
                   folder.string()));
 }
 
+/// @throws std::system_error if the device fails, ClaimRefused otherwise
+[[noreturn]] void refuse(const std::string& action, const std::error_code& reason) {
+  if (is_fault_of_device(reason)) throw std::system_error(reason, action);
+  throw ClaimRefused(fmt::format("{}: {}", action, reason.message()));
+}
+
 /// "process 1234 on host here" as signed by the holder of the lock.
 std::string holder_of(const LockFile& lock) {
   constexpr std::size_t most_bytes = 512;
@@ -130,9 +137,9 @@ FolderClaim::FolderClaim(std::filesystem::path folder, ClaimPurpose purpose)
   if (!error && !std::filesystem::is_directory(folder_, error) && !error)
     error = std::make_error_code(std::errc::not_a_directory);
   if (error) {
-    throw ClaimRefused(fmt::format("cannot {} the result folder {}: {}",
-                                   purpose == ClaimPurpose::resume ? "use" : "create", folder_.string(),
-                                   error.message()));
+    refuse(fmt::format("cannot {} the result folder {}", purpose == ClaimPurpose::resume ? "use" : "create",
+                       folder_.string()),
+           error);
   }
   try {
     do {
@@ -143,14 +150,13 @@ FolderClaim::FolderClaim(std::filesystem::path folder, ClaimPurpose purpose)
     refuse_other_kinds(folder_);
     sign();
   } catch (const std::filesystem::filesystem_error& fault) {
-    throw ClaimRefused(
-        fmt::format("cannot use the result folder {}: {}", folder_.string(), fault.code().message()));
+    refuse(fmt::format("cannot use the result folder {}", folder_.string()), fault.code());
   }
 }
 
 void FolderClaim::open_marker(ClaimPurpose purpose) {
   const auto fail = [&](const std::error_code& reason) {
-    throw ClaimRefused(fmt::format("cannot open {}: {}", marker_.string(), reason.message()));
+    refuse(fmt::format("cannot open {}", marker_.string()), reason);
   };
   while (const std::error_code reason = lock_.open(marker_, LockFile::Start::existing)) {
     if (reason != std::errc::no_such_file_or_directory) fail(reason);
@@ -184,7 +190,7 @@ void FolderClaim::sign() {
   const std::string text =
       fmt::format("{}process {} on host {}\n", marker_text, process_number(), host_name());
   if (const std::error_code reason = lock_.replace(text))
-    throw ClaimRefused(fmt::format("cannot write {}: {}", marker_.string(), reason.message()));
+    refuse(fmt::format("cannot write {}", marker_.string()), reason);
 }
 
 void FolderClaim::check() const {

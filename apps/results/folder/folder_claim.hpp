@@ -32,7 +32,8 @@ struct ClaimRefused : std::runtime_error {
 
 class FolderClaim {
  public:
-  /// Creates the folder if it does not exist (except for resume) and locks it. @throws ClaimRefused
+  /// Creates the folder if it does not exist (except for resume) and locks it.
+  /// @throws ClaimRefused; std::system_error if the device fails (is_fault_of_device)
   FolderClaim(std::filesystem::path folder, ClaimPurpose purpose);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

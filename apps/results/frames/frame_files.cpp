@@ -1,7 +1,5 @@
 #include "apps/results/frames/frame_files.hpp"
 
-#include <fmt/format.h>
-
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -27,10 +25,7 @@ std::unique_ptr<FrameFiles> new_frame_files(const std::filesystem::path& folder,
     return std::make_unique<VtkhdfFrames>(folder, series);
   }
   std::filesystem::create_directories(folder / "frames", error);
-  if (error) {
-    throw std::runtime_error(
-        fmt::format("cannot create the folder {}: {}", (folder / "frames").string(), error.message()));
-  }
+  if (error) throw std::system_error(error, "cannot create the folder " + (folder / "frames").string());
   return std::make_unique<VtuFiles>(folder, series, std::vector<FrameTime>());
 }
 

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <stdexcept>
 #include <string>
@@ -92,6 +94,14 @@ void OutputFile::close() {
 void OutputFile::fail(const char* action) const {
   throw std::system_error(errno, std::generic_category(),
                           std::string("cannot ") + action + " " + path_.string());
+}
+
+bool is_fault_of_device(const std::error_code& reason) {
+  constexpr std::array faults = {std::errc::no_space_on_device, std::errc::io_error,
+                                 std::errc::file_too_large, std::errc::too_many_files_open,
+                                 std::errc::too_many_files_open_in_system};
+  return reason == std::error_code(EDQUOT, std::generic_category()) ||
+         std::any_of(faults.begin(), faults.end(), [&](std::errc fault) { return reason == fault; });
 }
 
 void sync_folder(const std::filesystem::path& folder) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 
 namespace ashlar {
 
@@ -50,6 +51,10 @@ class OutputFile {
   int descriptor_ = -1;  ///< -1 after close() or a move
   std::uintmax_t size_ = 0;
 };
+
+/// True if the device or the process has no room left or fails: a full disk, a quota, too many open files. False for what
+/// a user may have asked wrongly: names, permissions.
+[[nodiscard]] bool is_fault_of_device(const std::error_code& reason);
 
 /// Waits until the names in a folder are on the disk; empty: the present one. No effect on file systems that cannot.
 /// @throws std::system_error "cannot write folder <folder>: <reason>"

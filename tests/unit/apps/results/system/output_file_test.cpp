@@ -8,7 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "support/temporary_folder.hpp"
@@ -19,6 +21,15 @@ namespace {
 using Start = OutputFile::Start;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
+
+TEST(FaultOfDevice, IsAFullDiskAndNoNameOrPermission) {
+  EXPECT_TRUE(is_fault_of_device(std::make_error_code(std::errc::no_space_on_device)));
+  EXPECT_TRUE(is_fault_of_device({EDQUOT, std::generic_category()}));
+  EXPECT_TRUE(is_fault_of_device({ENOSPC, std::system_category()}));
+  EXPECT_FALSE(is_fault_of_device(std::make_error_code(std::errc::permission_denied)));
+  EXPECT_FALSE(is_fault_of_device(std::make_error_code(std::errc::no_such_file_or_directory)));
+  EXPECT_FALSE(is_fault_of_device({}));
+}
 
 TEST(OutputFile, WritesCanBeReadBeforeItIsClosed) {
   const TemporaryFolder folder;
