@@ -41,7 +41,7 @@ std::string end_in_words(const SupportPath& path) {
   return "";
 }
 
-/// Joints are named if they have slid by more than this, m: the order in which joints slide is not unique.
+/// Joints are named if they have slid by more than this, m.
 double telling_slip(const SupportPath& path) {
   constexpr double share = 0.01;  // of the movement
   return share * path.lower;
@@ -50,12 +50,16 @@ double telling_slip(const SupportPath& path) {
 std::string slip_in_words(const SupportPath& path) {
   double most = 0.0;
   for (const MovedJoint& joint : path.joints) most = std::max(most, joint.slip);
-  return most > telling_slip(path) ? fmt::format(", joints slide by up to {:.3g} m", most) : "";
+  if (!(most > telling_slip(path))) return "";
+  const std::string others =
+      path.farthest ? fmt::format("; up to {:.5g} m if they slide in another order", *path.farthest) : "";
+  return fmt::format(", joints slide by up to {:.3g} m{}", most, others);
 }
 
 Json to_json(const SupportPath& path, const Simulation& simulation) {
   Json json = {{"lower", path.lower}};
   json["upper"] = path.upper ? Json(*path.upper) : Json(nullptr);
+  json["farthest"] = path.farthest ? Json(*path.farthest) : Json(nullptr);
   json["status"] = to_string(path.end);
   json["thrust"] = Json::array();
   for (const MovedPlace& place : path.places) json["thrust"].push_back({place.moved, place.thrust});

@@ -14,8 +14,10 @@
 //
 // Friction slides with dilation within a programme, mu times the slip. That opening is a gap in the next programme,
 // which closes it, so that joints do not rise as they slide: the scheme of Anitescu, Math. Program. 105 (2006) 113,
-// whose motion obeys Coulomb's law as the step tends to zero. Redundant structures have several such motions; this is
-// one. For the length of a step see notes/limit_analysis.md.
+// whose motion obeys Coulomb's law as the step tends to zero. For the length of a step see notes/limit_analysis.md.
+//
+// Where friction is redundant, balance leaves open which joint slides. After a path whose joints slide, each of these is
+// in turn the one that slides first, and the path with the least range counts.
 //
 // The movement ends where no step within the tolerance leads to an equilibrium in reach: no forces in balance exist,
 // or an arbitrarily small movement causes a finite motion. `lower` is the last equilibrium that was found.
@@ -88,6 +90,8 @@ struct SupportPath {
   /// Reference coefficients of blocks at `lower`, by block, (p, 3)
   std::vector<Eigen::MatrixX3d> positions;
   int programmes = 0;
+  /// m, largest range of other orders of slip, if it is larger by more than the tolerance; not beyond the limit
+  std::optional<double> farthest;
 };
 
 struct SupportMovement {

@@ -241,6 +241,23 @@ TEST(SupportMovement, SlidingJointsDoNotRise) {
   EXPECT_LT(change.col(2).norm(), 1e-5);
 }
 
+TEST(SupportMovement, EndsWhereAnyOrderOfSlipDoes) {
+  // A beam bears on 0.2 m at each end. Its centre of gravity is past the middle of the two bearings where one of them has
+  // slid out by 0.2 m; if both slide alike, by 0.2 m each.
+  LimitScene scene;
+  scene.law = joint(0.5);
+  scene.add("beam", Polyhedron(make_box({-1.2, 0, 0}, {1.2, 1, 0.4})));
+  scene.add_fixed(Polyhedron(make_box({-2, 0, -1}, {-1, 1, 0})));
+  scene.add_fixed(Polyhedron(make_box({1, 0, -1}, {2, 1, 0})));
+  const SupportPath path = moved(scene, 2, {Vector3(1, 0, 0), 1.0, 1e-4}).out;
+  EXPECT_EQ(path.end, MovementEnd::collapses);
+  EXPECT_LE(path.lower, 0.2 + 1e-6);
+  ASSERT_TRUE(path.upper && path.farthest);
+  EXPECT_NEAR(*path.upper, 0.2, 5e-4);
+  EXPECT_NEAR(*path.farthest, 0.4, 1e-3);
+  EXPECT_FALSE(moved(flat_arch(), 2, {std::nullopt, 1.0, 1e-4}).out.farthest);
+}
+
 TEST(SupportMovement, OfWhatRidesOnTheSupportIsNotLimited) {
   LimitScene scene;
   scene.add("box", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})));
