@@ -1,4 +1,4 @@
-"""Twelve small scenes, as the tables of their TOML files. Coordinates are multiples of 2^-10 m, so that scenes are
+"""Small scenes, as the tables of their TOML files. Coordinates are multiples of 2^-10 m, so that scenes are
 mirrored, shifted and scaled by powers of two without rounding."""
 
 def box(name, low, high, **more):
@@ -119,6 +119,35 @@ def generalized_alpha():
                  ["lower", "upper"], young_modulus=5e7)
 
 
+def pushed_wall():
+    """Bricks in bond, of which the topmost is pushed along the wall until some slide or tilt."""
+    bricks = [box(f"brick.{row}.{k}", (k + 0.5 * (row % 2), 0, 0.5 * row), (k + 1 + 0.5 * (row % 2), 0.5, 0.5 * row + 0.5),
+                  order=0) for row in range(3) for k in range(3 - row % 2)]
+    bricks[-1]["load"] = [{"point": [3.0, 0.25, 1.375], "force": [1024.0, 0.0, 0.0]}]
+    return scene({"type": "capacity"}, {"friction_angle": 35.0}, [floor(), *bricks], [])
+
+
+def slope():
+    """Rock on a steep face that two oblique sets of joints have cut: a network of wedges."""
+    return scene({"type": "factor-of-safety"}, {"friction_angle": 35.0},
+                 [box("ground", (-4, -4, -1), (0, 4, 0), fixed=True), box("back", (-4, -4, 0), (-2, 4, 2), fixed=True),
+                  box("rock", (-2, -1, 0), (0, 1, 1.5), order=0)], [],
+                 cut=[{"name": "bedding", "blocks": ["rock"], "dip": 28.0, "dip_direction": 75.0, "spacing": 0.75,
+                       "point": [-0.5, 0.0, 0.5]},
+                      {"name": "cross", "blocks": ["rock"], "dip": 62.0, "dip_direction": 160.0, "spacing": 1.0,
+                       "point": [-0.75, 0.125, 0.5]}])
+
+
+def leaning_stack():
+    """Deformable bricks whose tilt is half of their friction, bonded in part."""
+    return scene({"type": "factor-of-safety", "gravity": [2.75, 0.0, -9.25]}, {"friction_angle": 32.0},
+                 [floor(), *(box(f"brick.{k}", (0, 0, 0.5 * k), (1, 0.75, 0.5 * k + 0.5)) for k in range(3))], [],
+                 joint=[{"blocks": ["brick.1", "brick.2"], "friction_angle": 40.0}])
+
+
 SCENES = {function.__name__: function for function in (
     impact, static, rigid, high_order, friction, cohesion, damping, cut_rock, masonry, stages, multipliers,
     generalized_alpha)}
+
+# Their answers are factors, in brackets.
+SEARCHES = {function.__name__: function for function in (pushed_wall, slope, leaning_stack)}
