@@ -20,6 +20,7 @@ struct Box {
   [[nodiscard]] bool meets(const Box& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
+  [[nodiscard]] bool is_empty() const { return !(low.array() <= high.array()).all(); }
   [[nodiscard]] bool contains(const Vector3& point) const {
     return (low.array() <= point.array()).all() && (point.array() <= high.array()).all();
   }

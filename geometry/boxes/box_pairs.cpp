@@ -17,7 +17,7 @@ std::vector<NumberedBox> numbered(const std::vector<Box>& boxes) {
   std::vector<NumberedBox> result;
   result.reserve(boxes.size());
   for (std::size_t k = 0; k < boxes.size(); ++k) {
-    if (!(boxes[k].low.array() <= boxes[k].high.array()).all()) continue;
+    if (boxes[k].is_empty()) continue;
     Box box = boxes[k];  // the library takes no constant coordinates
     result.emplace_back(box.low.data(), box.high.data(), static_cast<int>(k));
   }

@@ -14,6 +14,25 @@ BoxTree::BoxTree(std::vector<Box> boxes, int leaf_size) : boxes_(std::move(boxes
   for (std::size_t n = 0; n < nodes_.size(); ++n) split(static_cast<int>(n), leaf_size);
 }
 
+std::vector<int> BoxTree::meeting(const Box& around) const {
+  std::vector<int> found;
+  std::vector<int> open;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const Node& node = nodes_[open.back()];
+    open.pop_back();
+    if (!node.box.meets(around)) continue;
+    if (node.children >= 0) {
+      open.insert(open.end(), {node.children, node.children + 1});
+      continue;
+    }
+    for (int k = node.begin; k < node.end; ++k)
+      if (boxes_[items_[k]].meets(around)) found.push_back(items_[k]);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 void BoxTree::split(int node, int leaf_size) {
   const int begin = nodes_[node].begin, end = nodes_[node].end;
   Box centers;

@@ -39,6 +39,8 @@ class BoxTree {
   /// Indices of the boxes, those of a node together.
   [[nodiscard]] const std::vector<int>& items() const { return items_; }
   [[nodiscard]] const Box& box(int item) const { return boxes_[item]; }
+  /// Boxes that meet a given one, ascending.
+  [[nodiscard]] std::vector<int> meeting(const Box& around) const;
 
  private:
   void split(int node, int leaf_size);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "geometry/boxes/box_pairs.hpp"
+#include "geometry/contacts/feature_boxes.hpp"
 #include "geometry/exact/rounding_mode.hpp"
 #include "geometry/index.hpp"
 
@@ -159,10 +160,6 @@ bool edge_is_end(const PlacedSurface& s, const SurfaceEdge& edge, const Vector3&
   return outward.dot(into_left) <= sine && outward.dot(into_right) <= sine;
 }
 
-double chord_bound(const PlacedSurface& s, const SurfaceEdge& edge) {
-  return std::max(s.chord_bound(edge.cells[0]), s.chord_bound(edge.cells[1]));
-}
-
 /// Place of a crossing on one of two edges in the projection along their common normal: within it, or at or beyond an
 /// end at which a reflex edge of the block ends too. There the surface continues with another edge, and below both of
 /// them each bounds the block.
@@ -255,45 +252,9 @@ void add_crossings(const std::vector<EdgeCrossing>& crossings, PairContacts& con
   }
 }
 
-/// Features of a surface whose boxes intersect a given one, and these boxes.
-struct NearFeatures {
-  std::vector<int> indices;
-  std::vector<Box> boxes;
-};
-
-template <class BoxOf>
-NearFeatures near(std::size_t count, const Box& around, BoxOf box_of_feature) {
-  NearFeatures features;
-  for (int k = 0; k < static_cast<int>(count); ++k) {
-    const Box box = box_of_feature(k);
-    if (!box.meets(around)) continue;
-    features.indices.push_back(k);
-    features.boxes.push_back(box);
-  }
-  return features;
-}
-
-/// Features of a surface near a box, their own boxes grown by a margin.
-NearFeatures near_cells(const PlacedSurface& s, const Box& around, double margin) {
-  return near(s.surface().cells.size(), around, [&](int cell) { return s.cell_box(cell).grown(margin); });
-}
-
-NearFeatures near_vertices(const PlacedSurface& s, const Box& around, double margin) {
-  return near(s.surface().vertices.size(), around, [&](int vertex) {
-    const Vector3& place = s.point(s.surface().vertices[at(vertex)].point);
-    return Box{place, place}.grown(margin);
-  });
-}
-
-NearFeatures near_edges(const PlacedSurface& s, const Box& around, double margin) {
-  return near(s.surface().edges.size(), around, [&](int edge) {
-    return box_of(s.edge(edge)).grown(margin + chord_bound(s, s.surface().edges[at(edge)]));
-  });
-}
-
 /// All vertices of one block against cells of the other.
-void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& vertices,
-                              const NearFeatures& cells, PairContacts& contacts) {
+void find_all_vertex_contacts(const VertexSearch& search, const FeatureBoxes& vertices,
+                              const FeatureBoxes& cells, PairContacts& contacts) {
   const auto pairs = meeting_boxes(vertices.boxes, cells.boxes);
   for (std::size_t first = 0; first < pairs.size();) {
     std::vector<int> met;
@@ -314,8 +275,10 @@ void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& ve
   const double margin = std::max(limits.reach, limits.penetration);
   if (!a.box().grown(margin).meets(b.box())) return contacts;
   // Only one of two boxes is grown, so that features closer than the margin are found.
-  const NearFeatures cells_a = near_cells(a, b.box(), margin);
-  const NearFeatures cells_b = near_cells(b, a.box().grown(margin), 0.0);
+  const FeaturesNear of_a(a, b.box(), margin), of_b(b, a.box().grown(margin), 0.0);
+  const FeatureBoxes cells_a = of_a.cells();
+  const FeatureBoxes cells_b = of_b.cells();
+  contacts.cells_near = static_cast<long>(cells_a.indices.size() + cells_b.indices.size());
   const double cosine = std::cos(limits.angle);
   for (const auto& [i, j] : meeting_boxes(cells_a.boxes, cells_b.boxes)) {
     const int cell_a = cells_a.indices[at(i)];
@@ -324,12 +287,10 @@ void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& ve
     auto overlap = overlap_of_cells(a, cell_a, b, cell_b, contacts.counts);
     if (overlap && within_limits(a, b, *overlap, limits)) contacts.overlaps.push_back(std::move(*overlap));
   }
-  find_all_vertex_contacts({a, b, true, limits, hidden.of_b}, near_vertices(a, b.box(), margin), cells_b,
-                           contacts);
-  find_all_vertex_contacts({b, a, false, limits, hidden.of_a}, near_vertices(b, a.box().grown(margin), 0.0),
-                           cells_a, contacts);
-  const NearFeatures edges_a = near_edges(a, b.box(), margin);
-  const NearFeatures edges_b = near_edges(b, a.box().grown(margin), 0.0);
+  find_all_vertex_contacts({a, b, true, limits, hidden.of_b}, of_a.vertices(), cells_b, contacts);
+  find_all_vertex_contacts({b, a, false, limits, hidden.of_a}, of_b.vertices(), cells_a, contacts);
+  const FeatureBoxes edges_a = of_a.edges();
+  const FeatureBoxes edges_b = of_b.edges();
   std::vector<EdgeCrossing> crossings;
   for (const auto& [i, j] : meeting_boxes(edges_a.boxes, edges_b.boxes)) {
     if (auto crossing =

@@ -61,6 +61,7 @@ struct PairContacts {
   /// Type of two convex solids as a whole (convex_search.hpp).
   std::optional<ContactType> type;
   DecisionCounts counts;
+  long cells_near = 0;  ///< of both, by their boxes
   [[nodiscard]] bool empty() const { return overlaps.empty() && vertices.empty() && edges.empty(); }
 };
 

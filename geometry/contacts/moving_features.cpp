@@ -1,8 +1,10 @@
 #include "geometry/contacts/moving_features.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
+#include "geometry/contacts/feature_boxes.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -27,22 +29,59 @@ void add_if_near(const MovingSurface& moving, const Box& around, std::span<const
   features.boxes.push_back(box);
 }
 
+/// Largest motion of a point along an axis, m.
+double largest_motion(const MovingSurface& moving) {
+  double most = 0.0;
+  if (moving.start == moving.end) return most;
+  for (std::size_t p = 0; p < moving.start->points().size(); ++p)
+    most = std::max(most, (moving.end->points()[p] - moving.start->points()[p]).cwiseAbs().maxCoeff());
+  return most;
+}
+
+/// Features that may come near, ascending.
+struct Candidates {
+  std::vector<int> points, edges, cells;
+};
+
+Candidates all_features(const SubFaceSurface& surface) {
+  Candidates all;
+  all.points.resize(surface.points.size());
+  all.edges.resize(surface.edges.size());
+  all.cells.resize(surface.cells.size());
+  for (std::vector<int>* indices : {&all.points, &all.edges, &all.cells})
+    std::iota(indices->begin(), indices->end(), 0);
+  return all;
+}
+
+Candidates candidates_near(const MovingSurface& moving, const Box& around) {
+  const SubFaceSurface& surface = moving.start->surface();
+  if (!moving.start->has_many_cells()) return all_features(surface);
+  Candidates near;
+  // Twice the motion, for rounding.
+  near.cells = moving.start->cell_tree().meeting(around.grown(2.0 * largest_motion(moving)));
+  near.points = points_of_cells(surface, near.cells);
+  near.edges = edges_of_cells(surface, near.cells);
+  return near;
+}
+
 }  // namespace
 
 MovingFeatures features_near(const MovingSurface& moving, const Box& around) {
   const SubFaceSurface& surface = moving.start->surface();
+  const Candidates candidates = candidates_near(moving, around);
   MovingFeatures features;
-  for (int p = 0; p < static_cast<int>(surface.points.size()); ++p) {
+  for (const int p : candidates.points) {
     if (!surface.cells_at[at(p)].empty() && (surface.divided || surface.vertex_of_point[at(p)] >= 0))
       add_if_near(moving, around, {&p, 1}, p, features.points);
   }
   const auto add_side = [&](const SurfaceSide& side) {
     add_if_near(moving, around, side.ends, side, features.sides);
   };
-  for (const SurfaceEdge& edge : surface.edges) {
+  for (const int e : candidates.edges) {
+    const SurfaceEdge& edge = surface.edges[at(e)];
     if (edge.convex) add_side({edge.ends, edge.cells});
   }
-  for (int c = 0; c < static_cast<int>(surface.cells.size()); ++c) {
+  for (const int c : candidates.cells) {
     const SurfaceCell& cell = surface.cells[at(c)];
     add_if_near(moving, around, cell.corners, c, features.cells);
     for (std::size_t k = 0; surface.divided && k < 3; ++k) {

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 
 #include "geometry/index.hpp"
 
@@ -10,6 +12,8 @@ namespace ashlar {
 namespace {
 
 constexpr int kept_bits = 70;
+/// Fewer cells are looked at faster one after the other.
+constexpr std::size_t few_cells = 256;
 
 /// Rounds to multiples of unit = 2^k by adding a number whose last place is that.
 double rounded(double value, double unit) {
@@ -18,6 +22,12 @@ double rounded(double value, double unit) {
 }
 
 }  // namespace
+
+/// Several searches may ask at a time.
+struct PlacedSurface::CellTree {
+  std::once_flag made;
+  std::optional<BoxTree> tree;
+};
 
 Vector3 without_tiny_parts(const Vector3& vector) {
   const double largest = vector.cwiseAbs().maxCoeff();
@@ -61,6 +71,12 @@ PlacedSurface::PlacedSurface(const SubFaceSurface& surface, std::vector<Vector3>
     chord_bounds_.push_back(shapes[c].chord_bound);
     largest_chord_bound_ = std::max(largest_chord_bound_, shapes[c].chord_bound);
   }
+  if (cell_boxes_.size() > few_cells) tree_ = std::make_shared<CellTree>();
+}
+
+const BoxTree& PlacedSurface::cell_tree() const {
+  std::call_once(tree_->made, [this] { tree_->tree.emplace(cell_boxes_); });
+  return *tree_->tree;
 }
 
 std::vector<Vector3> PlacedSurface::corners(int cell) const {

@@ -1,10 +1,12 @@
 // The current shape of a block's surface: data used several times by a contact search.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "geometry/boxes/box.hpp"
+#include "geometry/boxes/box_tree.hpp"
 #include "geometry/exact/direction_predicates.hpp"
 #include "geometry/subfaces/sub_face_refinement.hpp"
 #include "geometry/subfaces/sub_face_surface.hpp"
@@ -28,6 +30,10 @@ class PlacedSurface {
   [[nodiscard]] const Vector3& normal(int cell) const { return normals_[static_cast<std::size_t>(cell)]; }
   /// Contains the true cell.
   [[nodiscard]] const Box& cell_box(int cell) const { return cell_boxes_[static_cast<std::size_t>(cell)]; }
+  /// True if searches of cells by a tree pay.
+  [[nodiscard]] bool has_many_cells() const { return tree_ != nullptr; }
+  /// Of the boxes of cells, if there are many.
+  [[nodiscard]] const BoxTree& cell_tree() const;
   /// Upper bound of the distance of the true cell from the flat one, m.
   [[nodiscard]] double chord_bound(int cell) const {
     return chord_bounds_.empty() ? 0.0 : chord_bounds_[static_cast<std::size_t>(cell)];
@@ -44,10 +50,13 @@ class PlacedSurface {
   [[nodiscard]] const NumericRange& range() const { return range_; }
 
  private:
+  struct CellTree;
+
   const SubFaceSurface* surface_;
   std::vector<Vector3> points_;
   std::vector<Vector3> normals_;
   std::vector<Box> cell_boxes_;
+  std::shared_ptr<CellTree> tree_;  ///< of many cell_boxes_, made when it is first asked
   std::vector<double> chord_bounds_;
   double largest_chord_bound_ = 0.0;
   Box box_;

@@ -138,6 +138,15 @@ void add_triangles(const Polyhedron& solid, int face, const std::vector<int>& ed
   }
 }
 
+void find_edges_of_cells(SubFaceSurface& surface) {
+  surface.edges_of.resize(surface.cells.size());
+  for (std::size_t e = 0; e < surface.edges.size(); ++e)
+    for (const int cell : surface.edges[e].cells) {
+      std::vector<int>& edges = surface.edges_of[at(cell)];
+      if (edges.empty() || edges.back() != static_cast<int>(e)) edges.push_back(static_cast<int>(e));
+    }
+}
+
 void find_cells_at_points(SubFaceSurface& surface) {
   surface.cells_at.resize(surface.points.size());
   for (std::size_t c = 0; c < surface.cells.size(); ++c) {
@@ -223,6 +232,7 @@ SubFaceSurface whole_surface(const Polyhedron& solid) {
   find_cells_at_points(surface);
   take_edges_of_polyhedron(solid, surface);
   find_vertices(surface);
+  find_edges_of_cells(surface);
   surface.face_share = face_shares(solid);
   surface.convex_neighbours = convex_neighbours(solid);
   find_neighbours(solid, surface);
@@ -272,6 +282,7 @@ SubFaceSurface surface_of_triangles(const Polyhedron& solid, const std::vector<V
         {{start_of(triangles, h), start_of(triangles, twin)}, {h / 3, twin / 3}, edge.convex});
   }
   find_vertices(surface);
+  find_edges_of_cells(surface);
   surface.face_share = face_shares(solid);
   surface.convex_neighbours = convex_neighbours(solid);
   find_neighbours(solid, surface);

@@ -48,6 +48,7 @@ struct SubFaceSurface {
   std::vector<SurfaceVertex> vertices;
   std::vector<int> vertex_of_point;        ///< (#points) index into vertices; -1: none
   std::vector<std::vector<int>> cells_at;  ///< (#points) cells with this corner, increasing
+  std::vector<std::vector<int>> edges_of;  ///< (#cells) edges beside a cell, increasing
   std::vector<double> face_share;          ///< (#faces) area of a face over its number of corners, m^2
   std::vector<std::vector<int>> convex_neighbours;  ///< (#faces) faces across convex edges of it, increasing
   bool divided = false;  ///< true if faces were divided because the block may curve

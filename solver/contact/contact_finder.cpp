@@ -150,7 +150,8 @@ const std::vector<NearPair>& ContactFinder::near_pairs(const std::vector<BlockSt
   std::vector<PairKey> candidates = meeting_boxes(boxes);
   std::erase_if(candidates, [this](const PairKey& pair) { return !can_meet(pair); });
   divide_curved(candidates, boxes);
-  for (std::optional<PlacedSurface>& placed : placed_) placed.reset();
+  for (std::size_t k = 0; k < placed_.size(); ++k)
+    if (moving_[k] || surfaces_[k].curves()) placed_[k].reset();
   near_.clear();
   for (const PairKey& pair : candidates) {
     const double reach =
@@ -344,6 +345,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   observe(ContactStage::entrance, searched);
   std::vector<FoundContacts> found;
   for (FoundContacts& pair : searched) {
+    counts_.cells_near += static_cast<std::uint64_t>(pair.contacts.cells_near);
     counts_.predicates.filter += pair.contacts.counts.filter;
     counts_.predicates.exact += pair.contacts.counts.exact;
     std::optional<Clearance>& clearance = histories[pair.blocks].clearance;

@@ -52,6 +52,7 @@ struct FinderCounts {
   std::uint64_t block_pairs_skipped = 0;  ///< whose boxes cannot meet in the step
   std::uint64_t block_pairs_kept = 0;     ///< whose last search is still valid
   std::uint64_t block_pairs_far = 0;      ///< known to be too far apart to have met since the last search
+  std::uint64_t cells_near = 0;           ///< sub-faces looked at in searches of pairs, by their boxes
   std::uint64_t motions_checked = 0;      ///< pairs in continuous collision checks
   std::uint64_t divisions = 0;            ///< times the sub-faces of a block changed
   /// times a block had the largest number of sub-faces, so that the chord tolerance may not be met
@@ -186,6 +187,9 @@ class ContactFinder {
                                                          const std::vector<BlockState>& after,
                                                          double tolerance, const PairHistories& histories,
                                                          std::vector<std::vector<Vector3>>& ends);
+  /// The surface of a block after a motion. Empty: it does not move. @param ends of pairs_that_may_pass
+  [[nodiscard]] std::optional<PlacedSurface> end_of(int block,
+                                                    const std::vector<std::vector<Vector3>>& ends) const;
   [[nodiscard]] ContactLimits limits_of(const NearPair& pair, const PairHistories& histories) const;
   /// Searches pairs again if a vertex is inside a block below an occluded part of its face.
   /// @param limits of the pairs

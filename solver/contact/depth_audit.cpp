@@ -1,6 +1,7 @@
 #include "solver/contact/depth_audit.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "geometry/boxes/box_pairs.hpp"
@@ -26,12 +27,29 @@ AuditedBlock placed_block(const BlockSurface& surface, const BlockState& state) 
   return block;
 }
 
+/// Fewer features are looked at faster one after the other.
+constexpr std::size_t few_features = 256;
+
+std::optional<BoxTree> tree_of_many(std::vector<Box> boxes) {
+  if (boxes.size() <= few_features) return std::nullopt;
+  return BoxTree(std::move(boxes));
+}
+
 void place_edges(const BlockSurface& surface, const BlockState& state, AuditedBlock& block) {
   block.middles = surface.edge_middles(state);
   for (const SurfaceEdge& edge : surface.surface().edges) {
     block.edges.push_back(box_of(std::array{block.points[at(edge.ends[0])], block.points[at(edge.ends[1])]}));
     if (!block.middles.empty()) block.edges.back().include(block.middles[block.edges.size() - 1]);
   }
+}
+
+/// Trees of a block that is audited at the same place again: a tree costs as much as hundreds of pairs without one.
+void add_trees(AuditedBlock& block) {
+  block.edge_tree = tree_of_many(block.edges);
+  std::vector<Box> places;
+  for (const std::vector<Vector3>* points : {&block.points, &block.cells})
+    for (const Vector3& point : *points) places.push_back({point, point});
+  block.point_tree = tree_of_many(std::move(places));
 }
 
 /// Present places of the material points of a depth.
@@ -99,12 +117,16 @@ class PairAudit {
 
   [[nodiscard]] PairDepth run() {
     const std::size_t corners = with_points_.points.size();
-    for (std::size_t k = 0; k < corners; ++k) check_point(k, with_points_.points[k], surface_.points[k]);
-    for (std::size_t k = 0; k < with_points_.cells.size(); ++k)
-      check_point(corners + k, with_points_.cells[k], mean_of(surface_.points, surface_.cells[k].corners));
-    for (std::size_t k = 0; k < surface_.edges.size(); ++k) {
+    for_each_near(with_points_.point_tree, corners + with_points_.cells.size(), [&](std::size_t k) {
+      if (k < corners)
+        check_point(k, with_points_.points[k], surface_.points[k]);
+      else
+        check_point(k, with_points_.cells[k - corners],
+                    mean_of(surface_.points, surface_.cells[k - corners].corners));
+    });
+    for_each_near(with_points_.edge_tree, surface_.edges.size(), [&](std::size_t k) {
       if (surface_.edges[k].convex && with_points_.edges[k].meets(outer_.box)) check_edge(k);
-    }
+    });
     return deepest_;
   }
 
@@ -114,6 +136,27 @@ class PairAudit {
     bool asked = false;
     std::optional<Vector3> material;
   };
+  /// By index of a point: all of a block that has few, those that are asked of another one.
+  class Preimages {
+   public:
+    explicit Preimages(std::size_t count) : few_(count <= few_features ? count : 0) {}
+    Preimage& operator[](std::size_t index) { return few_.empty() ? many_[index] : few_[index]; }
+
+   private:
+    std::vector<Preimage> few_;
+    std::unordered_map<std::size_t, Preimage> many_;
+  };
+
+  /// Calls check(index) in ascending order: for those of a tree that meet the outer block's box, or for all.
+  template <class Check>
+  void for_each_near(const std::optional<BoxTree>& tree, std::size_t count, const Check& check) const {
+    if (tree) {
+      for (const int index : tree->meeting(outer_.box)) check(at(index));
+    } else {
+      for (std::size_t k = 0; k < count; ++k) check(k);
+    }
+  }
+
   /// An end of a part of an edge.
   struct EdgePlace {
     const Vector3& place;
@@ -199,8 +242,8 @@ class PairAudit {
   const MaterialMap& map_;
   double resolution_;
   ClearParts& clear_;
-  std::vector<Preimage> points_;
-  std::vector<Preimage> middles_;
+  Preimages points_;
+  Preimages middles_;
   PairDepth deepest_{};
 };
 
@@ -236,8 +279,9 @@ std::vector<MeasuredDepth> DepthAudit::measure(const std::vector<PairKey>& pairs
     for (const int block : pair) {
       if (!maps[at(block)]) maps[at(block)].emplace(blocks[at(block)], states[at(block)]);
       if (!finders_[at(block)]) finders_[at(block)].emplace(blocks[at(block)].solid());
-      if (audited_[at(block)].edges.empty())
-        place_edges(surfaces[at(block)], states[at(block)], audited_[at(block)]);
+      if (!audited_[at(block)].edges.empty()) continue;
+      place_edges(surfaces[at(block)], states[at(block)], audited_[at(block)]);
+      if (blocks[at(block)].fixed()) add_trees(audited_[at(block)]);
     }
   }
   for (const auto& [a, b] : pairs) {

@@ -18,6 +18,7 @@
 
 #include "geometry/any_solid/solid_depth.hpp"
 #include "geometry/boxes/box.hpp"
+#include "geometry/boxes/box_tree.hpp"
 #include "mechanics/block/block_surface.hpp"
 #include "solver/block_pair.hpp"
 
@@ -77,11 +78,13 @@ struct ClearParts {
 
 /// A block as an audit sees it.
 struct AuditedBlock {
-  std::vector<Vector3> points;   ///< of its surface, m; empty: not evaluated yet
-  Box box;                       ///< of the points, grown by the distance of the surface from its cells
-  std::vector<Vector3> cells;    ///< centroids of the corners of its sub-faces, m
-  std::vector<Vector3> middles;  ///< of its edges, m; empty: edges are straight
-  std::vector<Box> edges;        ///< empty: no other block has been near
+  std::vector<Vector3> points;        ///< of its surface, m; empty: not evaluated yet
+  Box box;                            ///< of the points, grown by the distance of the surface from its cells
+  std::vector<Vector3> cells;         ///< centroids of the corners of its sub-faces, m
+  std::vector<Vector3> middles;       ///< of its edges, m; empty: edges are straight
+  std::vector<Box> edges;             ///< empty: no other block has been near
+  std::optional<BoxTree> point_tree;  ///< of points, then cells, if the block is fixed and has many
+  std::optional<BoxTree> edge_tree;   ///< of edges, likewise
 };
 
 /// Scope and settings of an audit.

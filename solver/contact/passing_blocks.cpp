@@ -1,5 +1,6 @@
 // Continuous collision check: the part of ContactFinder that follows the motion of blocks.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "geometry/boxes/box_pairs.hpp"
@@ -42,9 +43,9 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
         look_at(block, before[at(block)]);
         placed_[at(block)] = surfaces_[at(block)].placed();
       }
-      if (moving_[at(block)])
-        tracks_[at(block)].checked_motion =
-            surfaces_[at(block)].motion_bound(before[at(block)], after[at(block)]);
+      if (!moving_[at(block)]) continue;
+      tracks_[at(block)].checked_motion =
+          surfaces_[at(block)].motion_bound(before[at(block)], after[at(block)]);
       ends[at(block)] = surfaces_[at(block)].points(after[at(block)]);
     }
   }
@@ -54,6 +55,12 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
     return both(pair) <= tolerance || known_apart(pair, both(pair), histories) || !of_a.meets(of_b);
   });
   return pairs;
+}
+
+std::optional<PlacedSurface> ContactFinder::end_of(int block,
+                                                   const std::vector<std::vector<Vector3>>& ends) const {
+  if (!moving_[at(block)]) return std::nullopt;
+  return PlacedSurface(surfaces_[at(block)].surface(), ends[at(block)]);
 }
 
 std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockState>& before,
@@ -74,8 +81,9 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
   std::vector<std::vector<Touch>> touches(pairs.size());
   parallel_for(settings_.threads, pairs.size(), [&](std::size_t k) {
     const auto& [a, b] = pairs[k];
-    const PlacedSurface end_a(surfaces_[at(a)].surface(), ends[at(a)]);
-    const PlacedSurface end_b(surfaces_[at(b)].surface(), ends[at(b)]);
+    const std::optional<PlacedSurface> placed_a = end_of(a, ends), placed_b = end_of(b, ends);
+    const PlacedSurface& end_a = placed_a ? *placed_a : placed(a);
+    const PlacedSurface& end_b = placed_b ? *placed_b : placed(b);
     const auto known = std::lower_bound(
         found.begin(), found.end(), pairs[k],
         [](const FoundContacts& contacts, const PairKey& pair) { return contacts.blocks < pair; });

@@ -24,6 +24,7 @@ nlohmann::ordered_json counts_of(const BuiltSimulation& built) {
           {"convex_pairs", finder.convex_pairs},
           {"block_pairs_skipped", finder.block_pairs_skipped},
           {"block_pairs_whose_contacts_lasted", finder.block_pairs_kept},
+          {"triangles_near", finder.cells_near},
           {"block_pairs_known_apart", finder.block_pairs_far},
           {"block_pairs_followed_through_a_step", finder.motions_checked},
           {"contacts_added_for_passing", counts.passing_contacts},

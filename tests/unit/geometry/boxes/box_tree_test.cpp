@@ -24,6 +24,22 @@ double squared_distance_to(const Box& box, const Eigen::Vector3d& x) {
   return (x - x.cwiseMax(box.low).cwiseMin(box.high)).squaredNorm();
 }
 
+TEST(BoxTree, FindsTheBoxesThatMeetAGivenOne) {
+  std::mt19937_64 random(4);
+  for (std::size_t count = 0; count < 300; count += 13) {
+    const std::vector<Box> boxes = random_boxes(count, random);
+    const BoxTree tree(boxes);
+    for (const double size : {0.0, 100.0, 400.0, 2000.0}) {
+      const Box around{Eigen::Vector3d::Constant(500.0 - size), Eigen::Vector3d::Constant(500.0 + size)};
+      std::vector<int> expected;
+      for (std::size_t i = 0; i < count; ++i)
+        if (boxes[i].meets(around)) expected.push_back(static_cast<int>(i));
+      EXPECT_EQ(tree.meeting(around), expected) << count << " boxes, " << size;
+    }
+    EXPECT_TRUE(tree.meeting(Box{}).empty());
+  }
+}
+
 TEST(PackedBoxTree, VisitsEveryBoxWithinTheBoundOnce) {
   std::mt19937_64 random(5);
   for (std::size_t count = 0; count < 70; ++count) {

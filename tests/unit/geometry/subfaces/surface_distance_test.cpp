@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "geometry/solid/shapes.hpp"
 
@@ -39,6 +41,36 @@ TEST(SurfaceDistance, IsNeverMoreThanTheTrueOne) {
     EXPECT_LE(bound(a, b, by), std::sqrt(0.75));
     EXPECT_NEAR(bound(a, b, by), std::sqrt(0.75), 1e-13);
   }
+}
+
+TEST(SurfaceDistance, OfASphereWithManyCellsIsThatOfTheNearestOnes) {
+  // 1280 triangles; the box is beside its point (0, 0, 1), in the slab of whose triangles the bound is sharp.
+  const TriangleMesh sphere = make_sphere({0, 0, 0}, 1.0, 3);
+  double top = 0.0;
+  for (const Vector3& point : sphere.points) top = std::max(top, point.z());
+  for (const double gap : {1e-3, 0.02, 0.2}) {
+    const TriangleMesh box = make_box({-0.3, -0.3, top + gap}, {0.3, 0.3, top + gap + 0.3});
+    for (const Eigen::Matrix3d& by : {as_is, turn}) {
+      EXPECT_LE(bound(sphere, box, by), gap * (1.0 + 1e-12));
+      EXPECT_GT(bound(sphere, box, by), 0.9 * gap);
+      EXPECT_EQ(bound(sphere, box, by), bound(box, sphere, by));
+    }
+  }
+}
+
+TEST(SurfaceDistance, OfAStoneInAHollowIsFromItsWalls) {
+  // No plane lies between a stone and a hollow around it.
+  const TriangleMesh stone = make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  const TriangleMesh hollow = make_sphere({0, 0, 0}, 2.0, 3);
+  const double walls = 2.0 * 0.98 - std::sqrt(0.75);  // a triangle of the sphere is at most 2 % nearer
+  EXPECT_GT(bound(hollow, stone, turn), 0.4);         // at most half of the stone's size is told
+  EXPECT_LE(bound(hollow, stone, turn), 2.0 - std::sqrt(0.75));
+  EXPECT_GT(walls, 0.5 * std::sqrt(3.0));
+}
+
+TEST(SurfaceDistance, OfASphereThatIsCutIsNone) {
+  const TriangleMesh sphere = make_sphere({0, 0, 0}, 1.0, 3);
+  EXPECT_EQ(bound(sphere, make_box({-0.2, -0.2, 0.9}, {0.2, 0.2, 1.2}), turn), 0.0);
 }
 
 TEST(SurfaceDistance, OfSurfacesThatMeetIsNone) {
