@@ -253,8 +253,8 @@ void add_crossings(const std::vector<EdgeCrossing>& crossings, PairContacts& con
 }
 
 /// All vertices of one block against cells of the other.
-void find_all_vertex_contacts(const VertexSearch& search, const FeatureBoxes& vertices,
-                              const FeatureBoxes& cells, PairContacts& contacts) {
+void find_all_vertex_contacts(const VertexSearch& search, const IndexedBoxes& vertices,
+                              const IndexedBoxes& cells, PairContacts& contacts) {
   const auto pairs = meeting_boxes(vertices.boxes, cells.boxes);
   for (std::size_t first = 0; first < pairs.size();) {
     std::vector<int> met;
@@ -276,8 +276,8 @@ void find_all_vertex_contacts(const VertexSearch& search, const FeatureBoxes& ve
   if (!a.box().grown(margin).meets(b.box())) return contacts;
   // Only one of two boxes is grown, so that features closer than the margin are found.
   const FeaturesNear of_a(a, b.box(), margin), of_b(b, a.box().grown(margin), 0.0);
-  const FeatureBoxes cells_a = of_a.cells();
-  const FeatureBoxes cells_b = of_b.cells();
+  const IndexedBoxes cells_a = of_a.cells();
+  const IndexedBoxes cells_b = of_b.cells();
   contacts.cells_near = static_cast<long>(cells_a.indices.size() + cells_b.indices.size());
   const double cosine = std::cos(limits.angle);
   for (const auto& [i, j] : meeting_boxes(cells_a.boxes, cells_b.boxes)) {
@@ -289,8 +289,8 @@ void find_all_vertex_contacts(const VertexSearch& search, const FeatureBoxes& ve
   }
   find_all_vertex_contacts({a, b, true, limits, hidden.of_b}, of_a.vertices(), cells_b, contacts);
   find_all_vertex_contacts({b, a, false, limits, hidden.of_a}, of_b.vertices(), cells_a, contacts);
-  const FeatureBoxes edges_a = of_a.edges();
-  const FeatureBoxes edges_b = of_b.edges();
+  const IndexedBoxes edges_a = of_a.edges();
+  const IndexedBoxes edges_b = of_b.edges();
   std::vector<EdgeCrossing> crossings;
   for (const auto& [i, j] : meeting_boxes(edges_a.boxes, edges_b.boxes)) {
     if (auto crossing =

@@ -45,9 +45,9 @@ FeaturesNear::FeaturesNear(const PlacedSurface& surface, const Box& around, doub
 }
 
 template <class BoxOf>
-FeatureBoxes FeaturesNear::near_of(std::size_t count, const std::vector<int>& candidates,
+IndexedBoxes FeaturesNear::near_of(std::size_t count, const std::vector<int>& candidates,
                                    const BoxOf& box_of_feature) const {
-  FeatureBoxes features;
+  IndexedBoxes features;
   const auto add_near = [&](const auto& indices) {
     for (const int k : indices) {
       const Box box = box_of_feature(k);
@@ -63,12 +63,12 @@ FeatureBoxes FeaturesNear::near_of(std::size_t count, const std::vector<int>& ca
   return features;
 }
 
-FeatureBoxes FeaturesNear::cells() const {
+IndexedBoxes FeaturesNear::cells() const {
   return near_of(surface_.surface().cells.size(), cells_,
                  [&](int cell) { return surface_.cell_box(cell).grown(margin_); });
 }
 
-FeatureBoxes FeaturesNear::vertices() const {
+IndexedBoxes FeaturesNear::vertices() const {
   const SubFaceSurface& surface = surface_.surface();
   std::vector<int> candidates;
   for (const int point : points_of_cells(surface, cells_))
@@ -79,7 +79,7 @@ FeatureBoxes FeaturesNear::vertices() const {
   });
 }
 
-FeatureBoxes FeaturesNear::edges() const {
+IndexedBoxes FeaturesNear::edges() const {
   const SubFaceSurface& surface = surface_.surface();
   return near_of(surface.edges.size(), edges_of_cells(surface, cells_), [&](int edge) {
     return box_of(surface_.edge(edge)).grown(margin_ + chord_bound(surface_, surface.edges[at(edge)]));

@@ -12,7 +12,7 @@ namespace ashlar {
 [[nodiscard]] double chord_bound(const PlacedSurface& s, const SurfaceEdge& edge);
 
 /// Features whose boxes intersect a given one, and these boxes.
-struct FeatureBoxes {
+struct IndexedBoxes {
   std::vector<int> indices;  ///< ascending
   std::vector<Box> boxes;
 };
@@ -24,14 +24,14 @@ class FeaturesNear {
   /// @param surface must outlive this. @param margin m, >= 0
   FeaturesNear(const PlacedSurface& surface, const Box& around, double margin);
 
-  [[nodiscard]] FeatureBoxes cells() const;
-  [[nodiscard]] FeatureBoxes vertices() const;
-  [[nodiscard]] FeatureBoxes edges() const;
+  [[nodiscard]] IndexedBoxes cells() const;
+  [[nodiscard]] IndexedBoxes vertices() const;
+  [[nodiscard]] IndexedBoxes edges() const;
 
  private:
   /// @param candidates beside near cells, of a surface with many; otherwise all of `count` are looked at
   template <class BoxOf>
-  [[nodiscard]] FeatureBoxes near_of(std::size_t count, const std::vector<int>& candidates,
+  [[nodiscard]] IndexedBoxes near_of(std::size_t count, const std::vector<int>& candidates,
                                      const BoxOf& box_of_feature) const;
 
   const PlacedSurface& surface_;
