@@ -1,7 +1,6 @@
 #include "geometry/contacts/feature_boxes.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -48,18 +47,17 @@ template <class BoxOf>
 IndexedBoxes FeaturesNear::near_of(std::size_t count, const std::vector<int>& candidates,
                                    const BoxOf& box_of_feature) const {
   IndexedBoxes features;
-  const auto add_near = [&](const auto& indices) {
-    for (const int k : indices) {
-      const Box box = box_of_feature(k);
-      if (!box.meets(around_)) continue;
-      features.indices.push_back(k);
-      features.boxes.push_back(box);
-    }
+  const auto add_if_near = [&](int k) {
+    const Box box = box_of_feature(k);
+    if (!box.meets(around_)) return;
+    features.indices.push_back(k);
+    features.boxes.push_back(box);
   };
-  if (surface_.has_many_cells())
-    add_near(candidates);
-  else
-    add_near(std::views::iota(0, static_cast<int>(count)));
+  if (surface_.has_many_cells()) {
+    for (const int k : candidates) add_if_near(k);
+  } else {
+    for (int k = 0; k < static_cast<int>(count); ++k) add_if_near(k);
+  }
   return features;
 }
 

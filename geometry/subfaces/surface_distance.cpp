@@ -94,6 +94,7 @@ double distance_by_cells(const PlacedSurface& a, const PlacedSurface& b) {
   const auto tree_of = [](const PlacedSurface& surface, std::optional<BoxTree>& own) -> const BoxTree& {
     if (surface.has_many_cells()) return surface.cell_tree();
     std::vector<Box> boxes;
+    boxes.reserve(surface.surface().cells.size());
     for (int cell = 0; cell < static_cast<int>(surface.surface().cells.size()); ++cell)
       boxes.push_back(surface.cell_box(cell));
     return own.emplace(std::move(boxes));

@@ -75,6 +75,7 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
   place_near(before);
   if (!sides_.noted()) {
     std::vector<PairOfContacts> all;
+    all.reserve(found.size());
     for (const FoundContacts& pair : found) all.emplace_back(pair.blocks, &pair.contacts);
     sides_.note(all, surfaces_);
   }

@@ -180,7 +180,7 @@ class Path {
 
   /// The motion of a step by the directions at its middle: hinges stay in place to third order of the rotation, while
   /// they would drift along their joints otherwise. @param way m, by the directions at its start
-  std::vector<BodyVelocity> half_way(double step, std::vector<BodyVelocity> way) {
+  std::vector<BodyVelocity> half_way(double step, const std::vector<BodyVelocity>& way) {
     const RigidModel mid = midway(*model_, *program_, way);
     // If there is none, the first directions are used, and remaining gaps are closed later.
     const auto velocity = velocity_of_step(mid, 0.5 * sign_ * step, step);
