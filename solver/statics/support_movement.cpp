@@ -24,10 +24,6 @@ std::vector<PairKey> slid_joints(const SupportPath& path) {
   return slid;
 }
 
-bool is_limited(const SupportPath& path) {
-  return path.end == MovementEnd::collapses || path.end == MovementEnd::jams;
-}
-
 /// The path with the least range of those that differ in the joint that slides first.
 SupportPath least_path(SupportStart start, const MovementSearch& search) {
   SupportPath least = path_of(start, search);
@@ -39,7 +35,7 @@ SupportPath least_path(SupportStart start, const MovementSearch& search) {
     other.programmes += least.programmes;
     if (other.end == MovementEnd::interrupted) return other;
     farthest = std::max(farthest, other.lower);
-    if (is_limited(other) && other.lower < least.lower)
+    if (other.lower < least.lower)
       least = std::move(other);
     else
       least.programmes = other.programmes;

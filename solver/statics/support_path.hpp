@@ -22,7 +22,7 @@ struct PathLengths {
   double closed = 1e-4 * reach;        ///< m, motion below which closing of gaps ends
 };
 
-/// What moves, and how. The referenced objects must outlive the search.
+/// A support with the blocks that follow it, and its direction. The referenced objects must outlive the search.
 struct SupportStart {
   const FollowedBlocks& blocks;
   const SupportWay& way;

@@ -35,7 +35,7 @@ ENDURANCE = ROOT / "tests/endurance"
 MOST_SECONDS, MOST_SECONDS_OF_CUTS, RUN_SECONDS, MOST_BYTES = 20, 120, 2, 8 << 30
 RUN_EACH = 2
 INTERRUPTED = 130
-# Whole words of libraries and of the language, which say nothing to a user.
+# Words of libraries and of the language, which say nothing to a user.
 RAW = re.compile(r"what\(\)|terminate called|basic_string|std::|vector::|stoi|stod|json\.exception|HDF5-DIAG|CGAL|Eigen|"
                  r"Assertion|core dumped|AddressSanitizer|runtime error|toml::|map::at|bad optional|invalid_argument")
 NUMBERS = [0, -1, 1, 2, 3, 7, -0.0, 0.5, 1e-3, 1e3, 1e6, 1e9, 1e12, 1e-12, 1e-300, 5e-324, 1e300, -1e300, 1.7e308, math.nan,
@@ -83,11 +83,8 @@ def base_scenes():
     for name, kind in json.loads((ENDURANCE / "kinds.json").read_text()).items():
         file = (ENDURANCE / kind["scene"]).resolve()
         scene = tomllib.loads(file.read_text())
-        try:
-            for setting in kind.get("set", []):
-                with_setting(scene, setting)
-        except (KeyError, StopIteration, IndexError, TypeError):
-            continue
+        for setting in kind.get("set", []):
+            with_setting(scene, setting)
         scenes.append((name, file.parent, scene))
     return scenes
 
@@ -251,8 +248,8 @@ def values_at(scenes, place):
 
 
 class Program:
-    def __init__(self, program, keep):
-        self.program, self.keep = program, keep
+    def __init__(self, program):
+        self.program = program
 
     def start(self, *command):
         def limit():
@@ -279,7 +276,7 @@ class Program:
             for other in mutation.folder.iterdir():
                 (work / other.name).symlink_to(other)
             for other in mutation.folder.parent.iterdir():
-                if other.is_dir() and not (work.parent / other.name).exists():
+                if other.is_dir():
                     mutation.text = mutation.text.replace(f"../{other.name}/", f"{other}/")
             self.most_seconds = MOST_SECONDS_OF_CUTS if "cut" in mutation.scene else MOST_SECONDS
             scene = work / "mutation.toml"
@@ -336,7 +333,7 @@ def main():
     statuses, faults = {}, 0
 
     def one(number):
-        mutation, judge = Mutator(number, scenes, keys), Program(program, arguments.keep)
+        mutation, judge = Mutator(number, scenes, keys), Program(program)
         return number, mutation, judge.judge(mutation, number), judge.status
 
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
