@@ -31,6 +31,9 @@ import tempfile
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/metamorphic"))
+from metamorphic import toml  # noqa: E402
+
 ENDURANCE = ROOT / "tests/endurance"
 MOST_SECONDS, MOST_SECONDS_OF_CUTS, RUN_SECONDS, MOST_BYTES = 20, 120, 2, 8 << 30
 RUN_EACH = 2
@@ -45,20 +48,8 @@ TEXTS = ["", " ", "a", "*", "?", "[", "..", "/", "/dev/null", "/dev/zero", "no_s
          "static", "dynamic", "thrust", "capacity", "factor-of-safety", "elastic", "limit", "%s%n", "{}", "../../../etc/passwd"]
 
 
-def toml_of(value):
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value) if math.isfinite(value) else {"inf": "inf", "-inf": "-inf"}.get(repr(value), "nan")
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=True).replace("\\ud83d\\ude00", "\\U0001f600")
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{json.dumps(key)} = {toml_of(one)}" for key, one in value.items()) + " }"
-    return "[" + ", ".join(toml_of(one) for one in value) + "]"
-
-
 def text_of(scene):
-    return "".join(f"{json.dumps(key)} = {toml_of(value)}\n" for key, value in scene.items())
+    return "".join(f"{json.dumps(key)} = {toml(value)}\n" for key, value in scene.items())
 
 
 def with_setting(scene, setting):
@@ -280,7 +271,7 @@ class Program:
                     mutation.text = mutation.text.replace(f"../{other.name}/", f"{other}/")
             self.most_seconds = MOST_SECONDS_OF_CUTS if "cut" in mutation.scene else MOST_SECONDS
             scene = work / "mutation.toml"
-            scene.write_text(mutation.text)
+            scene.write_text(mutation.text, encoding="utf-8")
             wrong = self.ended(*self.start("check", str(scene)))
             if not wrong and number % RUN_EACH == 0 and self.status == 0:
                 wrong = self.ended(*self.start("run", str(scene), "--out", str(work / "o"), "--quiet", "--checkpoint", "0"))
@@ -344,7 +335,7 @@ def main():
                 print(f"{number} ({mutation.name}): {wrong}", flush=True)
                 if arguments.keep:
                     arguments.keep.mkdir(parents=True, exist_ok=True)
-                    (arguments.keep / f"{number}.toml").write_text(mutation.text)
+                    (arguments.keep / f"{number}.toml").write_text(mutation.text, encoding="utf-8")
     print(f"{arguments.count} mutations of {len(scenes)} scenes over {len(keys)} keys, exit statuses {statuses}: {faults} findings")
     return 1 if faults else 0
 
