@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/run/factor_search.hpp"
+#include "apps/run/shown_state.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/statics/least_strength.hpp"
 #include "solver/statics/limit_analysis.hpp"
@@ -20,6 +21,7 @@ namespace ashlar {
 /// Result along the load path of a scene.
 struct PathFindings {
   PathAnswer answer;
+  BalancedForces rest;   ///< at answer.lower; empty: there is none
   LimitMotion motion;    ///< at answer.upper; empty: unknown, or nothing moves
   double allowed = 0.0;  ///< m, the least allowed displacement of any block
 };
@@ -48,7 +50,7 @@ struct ThrustLine {
   double thrust = 0.0;  ///< N
   double gap = 0.0;
   std::vector<JointResultant> joints;
-  std::vector<BarForce> bars;  ///< of bolts and props
+  BalancedForces forces;
 };
 struct SupportThrust {
   int support = -1;  ///< block
@@ -59,6 +61,7 @@ struct SupportThrust {
 struct ThrustFindings {
   std::vector<SupportThrust> supports;
   std::vector<SupportMovement> movements;  ///< of supports moved by the scene, in the order of blocks
+  LimitMotion motion;                      ///< if no forces within the strengths balance the loads
   std::string collapse;  ///< moving blocks, if no forces within the strengths balance the loads
 };
 
@@ -67,18 +70,19 @@ struct Answer {
   std::optional<FactorBracket> bracket;  ///< of a search by static analyses
   std::optional<LimitFindings> limits;   ///< of a search by limit analysis; beside bracket: where that began
   std::optional<ThrustFindings> thrust;
-  /// Onset of the motion found by limit analysis, to be drawn.
-  std::vector<RigidDisplacement> drawn;
+  std::string method_reason;  ///< why a factor is sought by its method; empty: the scene names it
+  /// Of limit analysis and thrust: the states that the answer speaks of, each a step of the run.
+  std::vector<ShownState> states;
 
-  /// True if only the onset of motion is drawn, without an analysis of it.
-  [[nodiscard]] bool drawn_only() const { return (limits && !bracket) || thrust; }
+  /// True if the run shows these states only, without an analysis of its own.
+  [[nodiscard]] bool shows_states() const { return (limits && !bracket) || thrust; }
 };
 
 /// Lists all members, for messages: inlined, gcc takes an empty bracket for one that is not initialised.
 template <class Archive>
 [[gnu::noinline]] void visit_members(Archive& archive, Answer& answer) {
-  auto& [bracket, limits, thrust, drawn] = answer;
-  archive(bracket, limits, thrust, drawn);
+  auto& [bracket, limits, thrust, method_reason, states] = answer;
+  archive(bracket, limits, thrust, method_reason, states);
 }
 
 }  // namespace ashlar

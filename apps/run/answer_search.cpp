@@ -24,7 +24,12 @@ std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>
 /// Answer of the first rank for all.
 struct FoundLimits {
   LimitFindings limits;
-  std::vector<RigidDisplacement> drawn;
+  std::vector<ShownState> states;
+};
+
+struct FoundThrust {
+  ThrustFindings thrust;
+  std::vector<ShownState> states;
 };
 
 bool seeks_thrust(const SceneAnalysis& analysis) {
@@ -52,14 +57,15 @@ AnswerSearch::AnswerSearch(std::shared_ptr<const LoadedScene> scene, std::uint64
 AnswerSearch::Plan AnswerSearch::planned(const Simulation& placed) {
   if (shared_ != nullptr) whole_.emplace(built_or_thrown(*scene_, threads_));
   model_ = limit_model(scene_->scene, whole_ ? whole_->simulation : placed);
-  const bool by_limits = uses_limit_analysis(scene_->scene, model_);
+  const MethodChoice method = choose_method(scene_->scene, whole_ ? whole_->simulation : placed, model_);
+  const bool by_limits = method.limit;
   // A search by static analyses begins with the result of limit analysis for the same strengths.
   const bool limits_first = by_limits || (model_ && !loses_strength(*model_));
   if (!limits_first && !seeks_thrust(scene_->scene.analysis)) {
     model_.reset();
     whole_.reset();
   }
-  return {limits_first, by_limits};
+  return {limits_first, by_limits, method.reason};
 }
 
 bool AnswerSearch::goes_on(const RunObservers& observers) const {
@@ -68,17 +74,26 @@ bool AnswerSearch::goes_on(const RunObservers& observers) const {
 
 bool AnswerSearch::advance(const Simulation& placed, const RunObservers& observers) {
   if (seeks_thrust(scene_->scene.analysis)) return find_thrust_first(placed, observers);
+  if (!plan_.reason.empty()) {
+    answer_.method_reason = std::exchange(plan_.reason, "");
+    observers.tell(&RunObserver::method_chosen, plan_.by_limits, answer_.method_reason);
+  }
   if (std::exchange(plan_.limits_first, false)) return find_limits_first(placed, observers);
   return advance_trial(observers);
 }
 
 bool AnswerSearch::find_thrust_first(const Simulation& placed, const RunObservers& observers) {
   bool stopped = false;
-  answer_.thrust = value_of_first(ranks_, [&] {
-    return find_thrust(scene_->scene, std::exchange(model_, std::nullopt).value(),
-                       whole_ ? whole_->simulation : placed, threads_,
-                       [&] { return !(stopped = stopped || !observers.go_on()); });
+  FoundThrust found = value_of_first(ranks_, [&] {
+    const Simulation& simulation = whole_ ? whole_->simulation : placed;
+    FoundThrust first;
+    first.thrust = find_thrust(scene_->scene, std::exchange(model_, std::nullopt).value(), simulation,
+                               threads_, [&] { return !(stopped = stopped || !observers.go_on()); });
+    first.states = thrust_states(first.thrust, simulation);
+    return first;
   });
+  answer_.thrust = std::move(found.thrust);
+  answer_.states = std::move(found.states);
   whole_.reset();
   if (any_rank(ranks_, stopped) || !goes_on(observers))
     interrupted_ = "interrupted while supports moved, which a new run begins with";
@@ -91,11 +106,11 @@ bool AnswerSearch::find_limits_first(const Simulation& placed, const RunObserver
     FoundLimits first;
     first.limits = find_limits(scene_->scene, std::exchange(model_, std::nullopt).value(), simulation,
                                threads_, [&] { return observers.go_on(); });
-    first.drawn = drawn_motion(signed_motion(first.limits), simulation);
+    first.states = limit_states(first.limits, scene_->scene.analysis, simulation);
     return first;
   });
   answer_.limits = std::move(found.limits);
-  answer_.drawn = std::move(found.drawn);
+  answer_.states = std::move(found.states);
   whole_.reset();
   observers.tell(&RunObserver::limits_found, *answer_.limits);
   if (answer_.limits->answer.interrupted) {

@@ -50,6 +50,7 @@ class AnswerSearch {
   struct Plan {
     bool limits_first = false;  ///< limit analysis comes before static analyses
     bool by_limits = false;     ///< it answers alone
+    std::string reason;         ///< of the method; empty: the scene names it, or it was told
   };
   [[nodiscard]] Plan planned(const Simulation& placed);
   [[nodiscard]] bool goes_on(const RunObservers& observers) const;

@@ -15,9 +15,14 @@ namespace {
 
 RunStatus status_of(const ThrustFindings& thrust) {
   if (!thrust.collapse.empty()) return RunStatus::moving;
-  const bool known = std::none_of(thrust.movements.begin(), thrust.movements.end(),
-                                  [](const SupportMovement& movement) { return is_open(movement); });
-  return thrust.supports.empty() || !known ? RunStatus::not_converged : RunStatus::completed;
+  // Movements end with what is known of them.
+  return thrust.supports.empty() ? RunStatus::not_converged : RunStatus::completed;
+}
+
+nlohmann::ordered_json states_json(const std::vector<ShownState>& states) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < states.size(); ++k) json.push_back({{"step", k + 1}, {"name", states[k].name}});
+  return json;
 }
 
 /// Where rigid blocks have another factor on the same path, which of both to sign: friction has several equilibria.
@@ -37,6 +42,7 @@ std::string rigid_difference(const Answer& answer) {
 
 void add_answer(nlohmann::ordered_json& summary, const Answer& answer, const SceneAnalysis& analysis,
                 const Simulation& simulation) {
+  if (answer.shows_states()) summary["states"] = states_json(answer.states);
   if (answer.thrust) summary["thrust"] = thrust_summary(*answer.thrust, simulation);
   if (answer.bracket) {
     summary[factor_name(analysis)] = factor_summary(*answer.bracket, simulation);
@@ -44,11 +50,20 @@ void add_answer(nlohmann::ordered_json& summary, const Answer& answer, const Sce
   } else if (answer.limits) {
     summary[factor_name(analysis)] = limit_summary(*answer.limits, simulation);
   }
+  if (!answer.method_reason.empty()) summary[factor_name(analysis)]["method_reason"] = answer.method_reason;
 }
 
-AnsweredEnd drawn_end(const Answer& answer, const SceneAnalysis& analysis, const Simulation& simulation) {
+std::optional<double> factor_of_states(const Answer& answer, const SceneAnalysis& analysis) {
+  if (!answer.limits || answer.bracket || analysis.type != SceneAnalysis::Type::capacity) return std::nullopt;
+  const PathAnswer& path = answer.limits->path.answer;
+  return path.lower ? path.lower : path.upper;
+}
+
+AnsweredEnd shown_end(const Answer& answer, const SceneAnalysis& analysis, const Simulation& simulation) {
   if (answer.thrust) return {status_of(*answer.thrust), describe(*answer.thrust, simulation)};
-  return {answer.limits->path.answer.resolved ? RunStatus::completed : RunStatus::not_converged,
+  const PathAnswer& path = answer.limits->path.answer;
+  const bool known = path.resolved || (path.lower && path.upper);
+  return {known ? RunStatus::completed : RunStatus::not_converged,
           describe(*answer.limits, analysis, simulation)};
 }
 
@@ -58,7 +73,8 @@ AnsweredEnd bracket_end(const Answer& answer, const SceneAnalysis& analysis, con
   if (shown.status == RunStatus::interrupted) return shown;
   std::string motion = shown.status == RunStatus::moving ? motion_in_words(simulation) : "";
   if (!motion.empty()) motion.insert(0, ": ");
-  return {bracket.resolved ? RunStatus::completed : RunStatus::not_converged,
+  const bool known = bracket.resolved || (bracket.lower && bracket.upper);
+  return {known ? RunStatus::completed : RunStatus::not_converged,
           describe(bracket, analysis) + motion + rigid_difference(answer)};
 }
 

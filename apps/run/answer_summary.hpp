@@ -22,8 +22,11 @@ struct AnsweredEnd {
   std::string message;
 };
 
-/// End of a run that only draws the onset of motion. @pre answer.drawn_only()
-[[nodiscard]] AnsweredEnd drawn_end(const Answer& answer, const SceneAnalysis& analysis,
+/// Factor on loads in the states of the answer; empty: they have those of the scene.
+[[nodiscard]] std::optional<double> factor_of_states(const Answer& answer, const SceneAnalysis& analysis);
+
+/// End of a run that shows the states of its answer. @pre answer.shows_states()
+[[nodiscard]] AnsweredEnd shown_end(const Answer& answer, const SceneAnalysis& analysis,
                                     const Simulation& simulation);
 /// End of a search by static analyses whose motion was shown. @param shown its end: interrupts remain as they are
 [[nodiscard]] AnsweredEnd bracket_end(const Answer& answer, const SceneAnalysis& analysis,

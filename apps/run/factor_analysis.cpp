@@ -117,6 +117,12 @@ std::string describe(const FactorBracket& bracket, const SceneAnalysis& analysis
   const bool safety = analysis.type == SceneAnalysis::Type::safety;
   const char* name = safety ? "factor of safety" : "load factor";
   const SceneAnalysis::FactorSearch& search = search_of(analysis);
+  if (!bracket.resolved && bracket.lower && bracket.upper)
+    return fmt::format(
+        "{} at least {:.5g}, at most {:.5g}: of what lies between static analyses found neither equilibrium "
+        "nor "
+        "motion",
+        name, *bracket.lower, *bracket.upper);
   if (!bracket.resolved)
     return fmt::format(
         "no {} to the tolerance of {}: {} stands, {} moves, and of what lies between static analyses found "

@@ -28,9 +28,13 @@ void FolderRecorder::stage_begins(const Run& run) {
                       run.whole().stage[static_cast<std::size_t>(stage_ - 1)].reset_displacement);
 }
 
+ResultFolder::Due FolderRecorder::due(const Run& run) const {
+  return run.answer().shows_states() ? ResultFolder::Due::frame : files_->due(run.simulation());
+}
+
 void FolderRecorder::step_taken(const Run& run) {
   claim_->check();
-  files_->add_step(run.simulation());
+  run.answer().shows_states() ? files_->add_state(run.simulation()) : files_->add_step(run.simulation());
 }
 
 void FolderRecorder::stage_ends(const Run& run) {

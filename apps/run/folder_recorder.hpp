@@ -27,7 +27,7 @@ class FolderRecorder : public RunObserver {
   void save_after_failure(const Run& run) override;
 
   /// Results that need the last accepted step. @pre begun()
-  [[nodiscard]] ResultFolder::Due due(const Simulation& simulation) const { return files_->due(simulation); }
+  [[nodiscard]] ResultFolder::Due due(const Run& run) const;
   /// True once the run has begun: the files below exist then.
   [[nodiscard]] bool begun() const { return files_.has_value(); }
   /// Waits until the tables are on the disk. @pre begun()

@@ -13,9 +13,8 @@
 #include "apps/run/path_run.hpp"
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
+#include "mechanics/block/rigid_body.hpp"
 #include "mechanics/bolt/bolt_strength.hpp"
-#include "solver/ranks/rank_messages.hpp"
-#include "solver/run/checkpoint.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -30,13 +29,17 @@ bool is_safety(const SceneAnalysis& analysis) {
   return analysis.type == SceneAnalysis::Type::safety;
 }
 
-/// True if limit analysis has all properties of all bolts.
-bool bolts_are_plastic(const Simulation& simulation) {
-  const std::vector<Bolt>& bolts = simulation.system().bolts();
-  return std::all_of(bolts.begin(), bolts.end(), [](const Bolt& bolt) {
+/// What limit analysis lacks of the first bolt that it lacks anything of: "bolt b has no shear_strength". Empty: nothing
+std::string lacking_bolt(const Simulation& simulation) {
+  for (const Bolt& bolt : simulation.system().bolts()) {
     const BoltLaw& law = bolt.chain.law();
-    return law.rupture_strain == BoltLaw::unlimited && !is_unlimited(law);
-  });
+    const char* lacks = std::isinf(bolt_strength(law).shear)       ? "has no shear_strength"
+                        : is_unlimited(law)                        ? "has no yield_force"
+                        : law.rupture_strain != BoltLaw::unlimited ? "breaks (rupture_strain)"
+                                                                   : nullptr;
+    if (lacks != nullptr) return fmt::format("{} {}", bolt.name, lacks);
+  }
+  return "";
 }
 
 Json array(const Vector3& v) {
@@ -80,6 +83,22 @@ std::string names_of(const Simulation& simulation, const std::vector<int>& block
   return text;
 }
 
+/// "factor of safety between 1.4 and 1.41: block a slides": a bracket that is wide or whose upper end is not proved is one
+/// on the safe side.
+std::string bracket_in_words(const LimitFindings& findings, const SceneAnalysis& analysis,
+                             const std::string& motion) {
+  const PathAnswer& path = findings.path.answer;
+  const char* name = is_safety(analysis) ? "factor of safety" : "load factor";
+  if (!path.proven)
+    return fmt::format(
+        "{} at least {:.5g}: blocks rest there, and at {:.5g} neither rest nor motion was found", name,
+        *path.lower, *path.upper);
+  const std::string wide = path.resolved
+                               ? std::string()
+                               : fmt::format(" (not to the tolerance of {})", search_of(analysis).tolerance);
+  return fmt::format("{} between {:.5g} and {:.5g}{}: {}", name, *path.lower, *path.upper, wide, motion);
+}
+
 std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& analysis,
                             const Simulation& simulation) {
   const PathAnswer& path = findings.path.answer;
@@ -89,7 +108,7 @@ std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& 
   const auto known = [](const std::optional<double>& factor) {
     return factor ? fmt::format("{:.5g}", *factor) : std::string("no factor");
   };
-  if (!path.resolved)
+  if (!path.resolved && !(path.lower && path.upper))
     return fmt::format(
         "no {} to the tolerance of {}: {} stands, {} moves; analysis.method = \"elastic\" may find it", name,
         search.tolerance, known(path.lower), known(path.upper));
@@ -101,8 +120,7 @@ std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& 
     return fmt::format(
         "no {} down to {}: {}, {}", name, search.lower, motion,
         is_safety(analysis) ? fmt::format("also with strengths over {}", search.lower) : "under all loads");
-  std::string text = fmt::format("{} between {:.5g} and {:.5g}: {}", name, *path.lower, *path.upper, motion) +
-                     onset_in_words(findings.path, simulation);
+  std::string text = bracket_in_words(findings, analysis, motion) + onset_in_words(findings.path, simulation);
   const double apart = 1.0 + 2.0 * search.tolerance;
   const std::optional<double>& released = findings.answer.released.lower;
   if (!released || *released * apart < *path.lower)
@@ -136,7 +154,8 @@ Json names_in_json(const std::vector<int>& blocks, const Simulation& simulation)
 }
 
 /// Joints that crush have their strength in limit analysis alone: the lesser of both answers stands.
-void take_crushing_limit(LimitFindings& findings, const RigidModel& model) {
+void take_crushing_limit(LimitFindings& findings, LimitAnalysis& analysis, bool safety) {
+  const RigidModel& model = analysis.model();
   if (std::none_of(model.points.begin(), model.points.end(), crushes)) return;
   const LimitBracket& limit = findings.answer.released;
   PathAnswer& path = findings.path.answer;
@@ -146,6 +165,14 @@ void take_crushing_limit(LimitFindings& findings, const RigidModel& model) {
   path.resolved = limit.resolved;
   path.motion.reset();
   findings.path.motion = {};
+  findings.path.rest = {};
+  path.proven = true;
+  if (!limit.lower) return;
+  const double factor = *limit.lower;
+  const LimitTrial stands =
+      analysis.associated(safety ? LimitFactors{factor, 1.0} : LimitFactors{1.0, factor});
+  findings.path.rest =
+      balanced_forces(analysis.model(), stands.force, analysis.reduced(), stands.factors.strength);
 }
 
 }  // namespace
@@ -170,7 +197,7 @@ std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simu
   const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
   const bool by_choice = thrust || scene.analysis.method == SceneAnalysis::Method::limit;
   if (!by_choice && !simulation.bolts().empty() &&
-      (scene.analysis.method == SceneAnalysis::Method::elastic || !bolts_are_plastic(simulation)))
+      (scene.analysis.method == SceneAnalysis::Method::elastic || !lacking_bolt(simulation).empty()))
     return std::nullopt;
   const bool multiplies = scene.analysis.type == SceneAnalysis::Type::capacity;
   RigidModel model = simulation.rigid_model(scene.analysis.end_time,
@@ -179,11 +206,17 @@ std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simu
   return model;
 }
 
-bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& model) {
-  if (!seeks_factor(scene.analysis) || scene.analysis.method == SceneAnalysis::Method::elastic) return false;
-  if (scene.analysis.method == SceneAnalysis::Method::limit) return model.has_value();
+MethodChoice choose_method(const Scene& scene, const Simulation& simulation,
+                           const std::optional<RigidModel>& model) {
+  if (!seeks_factor(scene.analysis) || scene.analysis.method == SceneAnalysis::Method::elastic) return {};
+  if (scene.analysis.method == SceneAnalysis::Method::limit) return {model.has_value(), ""};
+  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
+    return {false, "limit analysis has no incremental formulation"};
+  if (!model) return {false, lacking_bolt(simulation) + ", which limit analysis needs"};
+  if (loses_strength(*model)) return {false, "joints lose strength as they fail"};
   // Stress of the ground clamps blocks, which limit analysis begins without.
-  return model && !loses_strength(*model) && !scene.initial_stress.given();
+  if (scene.initial_stress.given()) return {false, "the ground has stress at the start"};
+  return {true, "joints and bolts keep their strength"};
 }
 
 namespace {
@@ -218,10 +251,10 @@ void warn_of_lost_strength(const Scene& scene, const RigidModel& model, Diagnost
 
 }  // namespace
 
-void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model,
-                        Diagnostics& diagnostics) {
+void refuse_idle_limits(const Scene& scene, const Simulation& simulation,
+                        const std::optional<RigidModel>& model, Diagnostics& diagnostics) {
   const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
-  refuse_idle_crushing(scene, model, diagnostics);
+  refuse_idle_crushing(scene, simulation, model, diagnostics);
   if (!model) {
     if (thrust || (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit))
       diagnostics.error(
@@ -275,27 +308,11 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation
     findings.released = released->force.empty() ? findings.path.motion
                         : released->released    ? analysis.motion_of(*released)
                                                 : findings.associated;
-  if (!released && findings.answer.released.lower) {
-    const double factor = *findings.answer.released.lower;
-    const LimitTrial stands = analysis.associated(is_safety(scene.analysis) ? LimitFactors{factor, 1.0}
-                                                                            : LimitFactors{1.0, factor});
-    findings.released.bars = bar_forces(analysis.model(), stands.force);
-  }
-  take_crushing_limit(findings, analysis.model());
+  take_crushing_limit(findings, analysis, is_safety(scene.analysis));
   findings.answer.interrupted = findings.answer.interrupted || findings.path.answer.interrupted;
   if (!findings.answer.interrupted)
     findings.crushing = find_crushing(analysis, findings.path.answer, scene.analysis, threads);
   return findings;
-}
-
-void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation) {
-  if (forces.empty()) return;
-  simulation.gather_results();
-  SimulationSnapshot snapshot = simulation.snapshot();
-  snapshot.run.bolts = bolts_under(forces, simulation.system().bolts(), simulation.bolts());
-  if (const SharedBlocks* shared = simulation.shared_blocks())
-    snapshot = std::move(values_of_ranks(shared->share->ranks(), snapshot).front());
-  simulation.restore(snapshot);
 }
 
 Json bars_json(const std::vector<BarForce>& forces, const Simulation& simulation) {
@@ -326,12 +343,14 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
                {"strength", findings.has_residual_strength ? "residual" : "full"},
                {"lower", number(path.lower)},
                {"upper", number(path.upper)},
+               {"proven", path.proven},
                {"released", number(released.lower)},
                {"associated", number(associated.lower)}};
   json["gap"] = path.lower && path.upper ? Json(*path.upper / *path.lower - 1.0) : Json(nullptr);
   add_path(json, findings.path, simulation);
   add_motion(json, signed_motion(findings), simulation);
-  if (!findings.released.bars.empty()) json["bolts"] = bars_json(findings.released.bars, simulation);
+  const std::vector<BarForce>& bars = path.lower ? findings.path.rest.bars : signed_motion(findings).bars;
+  if (!bars.empty()) json["bolts"] = bars_json(bars, simulation);
   json["kept_by_others"] = names_in_json(findings.answer.kept_by_others, simulation);
   json["least_strength"] = least_strength_json(findings.crushing, simulation);
   json["associated_bracket"] = {number(associated.lower), number(associated.upper)};
@@ -346,18 +365,47 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
   return json;
 }
 
-std::vector<RigidDisplacement> drawn_motion(const LimitMotion& motion, const Simulation& simulation) {
+std::vector<Eigen::MatrixX3d> drawn_motion(const LimitMotion& motion, const Simulation& simulation) {
   double most = 0.0;
   for (const LimitMotion::Block& block : motion.blocks) {
     const double size = block_size(simulation.blocks()[static_cast<std::size_t>(block.block)]);
     most = std::max({most, block.acceleration.norm() / size, block.angular_acceleration.norm()});
   }
-  std::vector<RigidDisplacement> drawn;
-  if (most == 0.0) return drawn;
-  for (const LimitMotion::Block& block : motion.blocks)
-    drawn.push_back({block.block, block.about, drawn_share / most * block.acceleration,
-                     drawn_share / most * block.angular_acceleration});
-  return drawn;
+  std::vector<Eigen::MatrixX3d> positions;
+  for (const BlockState& state : simulation.states()) positions.push_back(state.position);
+  if (most == 0.0) return positions;
+  const double share = drawn_share / most;
+  for (const LimitMotion::Block& block : motion.blocks) {
+    Eigen::MatrixX3d& position = positions[static_cast<std::size_t>(block.block)];
+    const BlockModel& model = simulation.blocks()[static_cast<std::size_t>(block.block)];
+    const Eigen::VectorXd one = constant_function(position.rows(), model.basis().volume());
+    const double angle = share * block.angular_acceleration.norm();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(angle, block.angular_acceleration.stableNormalized()).toRotationMatrix();
+    position = (position - one * block.about.transpose()) * turn.transpose() +
+               one * (block.about + share * block.acceleration).transpose();
+  }
+  return positions;
+}
+
+std::vector<ShownState> limit_states(const LimitFindings& findings, const SceneAnalysis& analysis,
+                                     const Simulation& simulation) {
+  const PathAnswer& path = findings.path.answer;
+  const char* name = is_safety(analysis) ? "factor of safety" : "load factor";
+  std::vector<ShownState> states;
+  if (path.lower)
+    states.push_back({fmt::format("at rest under {} {:.5g}", name, *path.lower), {}, findings.path.rest});
+  const LimitMotion& motion = signed_motion(findings);
+  if (motion.blocks.empty()) return states;
+  std::vector<Eigen::MatrixX3d> positions = drawn_motion(motion, simulation);
+  BalancedForces forces =
+      path.lower ? carried(findings.path.rest, positions, simulation) : BalancedForces{{}, motion.bars};
+  states.push_back(
+      {fmt::format("onset of the motion {}, enlarged",
+                   path.upper ? fmt::format("beyond {} {:.5g}", name, path.lower.value_or(*path.upper))
+                              : std::string("found")),
+       std::move(positions), std::move(forces)});
+  return states;
 }
 
 }  // namespace ashlar

@@ -123,17 +123,17 @@ SupportMovement find_movement(const Scene& scene, const RigidModel& model, const
                           request.support, search);
 }
 
-bool is_open(const SupportMovement& movement) {
-  return movement.out.end == MovementEnd::not_determined || movement.in.end == MovementEnd::not_determined;
+std::pair<const char*, const char*> ways_in_words(const SupportMovement& movement) {
+  if (movement.away) return {"out", "in"};
+  if (movement.direction) return {"along its direction", "against it"};
+  return {"apart", "together"};
 }
 
 std::string describe(const SupportMovement& movement, const Simulation& simulation) {
   const auto path_in_words = [](const SupportPath& path, const char* way) {
     return fmt::format("{:.5g} m {} ({}{})", path.lower, way, end_in_words(path), slip_in_words(path));
   };
-  const auto [out, in] = movement.away        ? std::pair("out", "in")
-                         : movement.direction ? std::pair("along its direction", "against it")
-                                              : std::pair("apart", "together");
+  const auto [out, in] = ways_in_words(movement);
   return fmt::format("{} can move {}, {}{}", block_name(simulation, movement.support),
                      path_in_words(movement.out, out), path_in_words(movement.in, in),
                      movement.left_out_strength ? ", by friction alone" : "");

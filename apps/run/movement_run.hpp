@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/scene/build/scene_loading.hpp"
@@ -30,8 +31,8 @@ struct MovementRequest {
 [[nodiscard]] SupportMovement find_movement(const Scene& scene, const RigidModel& model,
                                             const Simulation& simulation, const MovementRequest& request);
 
-/// True if nothing is known beyond the last equilibrium in one of the directions.
-[[nodiscard]] bool is_open(const SupportMovement& movement);
+/// The two ways of a movement: "out" and "in", "along its direction" and "against it", "apart" and "together".
+[[nodiscard]] std::pair<const char*, const char*> ways_in_words(const SupportMovement& movement);
 
 /// "left can move 0.141 m out (collapses at 0.1411 m), 0.072 m in (...)"
 [[nodiscard]] std::string describe(const SupportMovement& movement, const Simulation& simulation);

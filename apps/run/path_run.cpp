@@ -57,6 +57,9 @@ PathFindings find_path(const Scene& scene, const Simulation& simulation, const L
   const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
   const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
   found.answer = search_path(path, safety ? Sought::strength : Sought::load, search, associated, goes_on);
+  if (found.answer.lower)
+    found.rest =
+        balanced_forces(path.model(), found.answer.force, path.reduced(), safety ? *found.answer.lower : 1.0);
   if (found.answer.motion) found.motion = limit_motion(path.model(), path.program(), *found.answer.motion);
   return found;
 }

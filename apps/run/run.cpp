@@ -167,6 +167,8 @@ bool Run::search_piece() {
     const double shown = shown_factor(*answer_.bracket, search_of(analysis));
     built_ = built_stage(scene_, manner_.threads, manner_.ranks, trial_factors(analysis, shown));
     if (!earlier_) start_at_rest(*scene_, manner_.threads, manner_.ranks, built_.simulation);
+  } else if (const auto factor = factor_of_states(answer_, whole().analysis)) {
+    built_ = built_stage(scene_, manner_.threads, manner_.ranks, trial_factors(whole().analysis, *factor));
   }
   if (earlier_) built_.simulation.restore(earlier_->simulation);
   search_.reset();
@@ -179,7 +181,7 @@ void Run::advance() {
     phase_ = Phase::in_stage;
     if (!tell(&RunObserver::stage_begins)) return;
   }
-  if (answer_.drawn_only()) return draw_onset();
+  if (answer_.shows_states()) return show_state();
   if (is_static(scene().analysis)) return take_iteration();
   take_step();
 }
@@ -283,15 +285,15 @@ void Run::take_iteration() {
   }
 }
 
-/// Draws the onset of motion found by limit analysis, or the blocks of an analysis of thrust, as a step.
-void Run::draw_onset() {
+/// Shows the next state that the answer speaks of, as a step.
+void Run::show_state() {
   Simulation& simulation = built_.simulation;
-  if (simulation.steps() == 0) {
-    simulation.displace(answer_.drawn);
-    set_bolts(answer_.thrust ? drawn_bars(*answer_.thrust) : answer_.limits->released.bars, simulation);
-    if (!accept_step()) return;
+  const auto next = static_cast<std::size_t>(simulation.steps());
+  if (next < answer_.states.size()) {
+    show(answer_.states[next], scene().analysis.end_time, simulation);
+    if (!accept_step() || next + 1 < answer_.states.size()) return;
   }
-  AnsweredEnd end = drawn_end(answer_, scene().analysis, simulation);
+  AnsweredEnd end = shown_end(answer_, scene().analysis, simulation);
   end_stage(end.status, std::move(end.message));
 }
 
@@ -312,7 +314,7 @@ void Run::end_stage(RunStatus status, std::string message) {
   message_ = std::move(message);
   if (shared()) built_.simulation.gather_results({}, own_contact_counts(simulation()));
   if (!tell(&RunObserver::stage_stops)) return;
-  if (status == RunStatus::completed && !answer_.drawn_only()) {
+  if (status == RunStatus::completed && !answer_.shows_states()) {
     if (const auto deep = built_.simulation.audit()) {
       stage_status_ = RunStatus::failed;
       message_ = fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",

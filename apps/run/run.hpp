@@ -193,7 +193,7 @@ class Run {
   [[nodiscard]] GoalValues goals_of_measures() const;
   void estimate_measures();
   void take_iteration();
-  void draw_onset();
+  void show_state();
   bool accept_step();
   void gather_due();
   [[nodiscard]] ResultFolder::Due due() const;

@@ -229,7 +229,7 @@ void tell_choices(const BuiltSimulation& built, std::ostream& err) {
 void tell_results(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   tell_end(run, folder, quiet, err);
   const Simulation& simulation = run.simulation();
-  if (!run.answer().drawn_only()) {
+  if (!run.answer().shows_states()) {
     const LargestValues largest = run.largest();
     if (!quiet) tell_answers(simulation, largest, err);
     warn_of_strain(simulation, largest, err);

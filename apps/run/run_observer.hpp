@@ -25,6 +25,8 @@ class RunObserver {
   [[nodiscard]] virtual bool goes_on() { return true; }
 
   // A search for a factor, before the run begins.
+  /// @param limit true: by limit analysis, false: by static analyses. @param reason why; the scene leaves it open
+  virtual void method_chosen(bool /*limit*/, const std::string& /*reason*/) {}
   /// Limit analysis has ended, possibly by an interrupt.
   virtual void limits_found(const LimitFindings& /*findings*/) {}
   /// @param iterations of a static analysis that has not ended

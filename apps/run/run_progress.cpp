@@ -21,6 +21,11 @@ ProgressState progress_of(const Simulation& simulation) {
 
 RunProgress::RunProgress(std::ostream& out, bool quiet) : out_(out), quiet_(quiet), told_(RunClock::now()) {}
 
+void RunProgress::method_chosen(bool limit, const std::string& reason) {
+  if (quiet_) return;
+  out_ << fmt::format("chosen: analysis.method = \"{}\": {}\n", limit ? "limit" : "elastic", reason);
+}
+
 void RunProgress::limits_found(const LimitFindings& findings) {
   if (quiet_) return;
   for (const LimitTrial& trial : findings.answer.trials)
@@ -57,6 +62,11 @@ void RunProgress::stage_begins(const Run& run) {
 }
 
 void RunProgress::step_taken(const Run& run) {
+  if (run.answer().shows_states()) {
+    const auto step = static_cast<std::size_t>(run.simulation().steps());
+    if (!quiet_) out_ << fmt::format("step {}: {}\n", step, run.answer().states.at(step - 1).name);
+    return;
+  }
   if (line_) line_->update(progress_of(run.simulation()));
 }
 

@@ -15,6 +15,7 @@ class RunProgress : public RunObserver {
   /// @param out stderr or its substitute; must outlive this. @param quiet only interrupted trials
   RunProgress(std::ostream& out, bool quiet);
 
+  void method_chosen(bool limit, const std::string& reason) override;
   void limits_found(const LimitFindings& findings) override;
   void trial_continues(double factor, int iterations) override;
   void trial_ends(const FactorTrial& trial, const std::string& reason) override;

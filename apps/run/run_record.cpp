@@ -99,7 +99,7 @@ bool Run::told_on_all(bool told) {
 }
 
 ResultFolder::Due Run::due() const {
-  if (recorder_) return recorder_->due(simulation());
+  if (recorder_) return recorder_->due(*this);
   return manner_.keeps_history ? ResultFolder::Due::row : ResultFolder::Due::nothing;
 }
 

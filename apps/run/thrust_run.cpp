@@ -21,7 +21,11 @@ ThrustLine line_of(const RigidModel& model, const ThrustState& state) {
   std::vector<Eigen::Vector3d> in_frames;
   for (std::size_t k = 0; k < state.force.size(); ++k)
     in_frames.emplace_back(model.points[k].frame * state.force[k] / model.units.force());
-  return {state.thrust, state.gap, joint_resultants(model, state.force), bar_forces(model, in_frames)};
+  return {state.thrust, state.gap, joint_resultants(model, state.force), balanced_forces(model, in_frames)};
+}
+
+void add_state(std::vector<ShownState>& states, const SupportPath& path, const std::string& name) {
+  if (!path.contacts.empty()) states.push_back({name, path.positions, {path.contacts, {}}});
 }
 
 Json to_json(const ThrustLine& line, const Simulation& simulation) {
@@ -79,7 +83,8 @@ ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulatio
   const LimitTrial trial = analysis.associated({});
   if (trial.outcome == LimitOutcome::moves) {
     findings.supports.clear();
-    findings.collapse = words_of(analysis.motion_of(trial), simulation);
+    findings.motion = analysis.motion_of(trial);
+    findings.collapse = words_of(findings.motion, simulation);
   }
   if (findings.supports.empty()) return findings;
   for (const int support : moved_supports(scene, model))
@@ -110,9 +115,9 @@ Json thrust_summary(const ThrustFindings& findings, const Simulation& simulation
                 {"gap", std::max(support.least.gap, support.most ? support.most->gap : 0.0)},
                 {"least_line", to_json(support.least, simulation)}};
     one["most_line"] = support.most ? to_json(*support.most, simulation) : Json(nullptr);
-    if (!support.least.bars.empty()) {
-      one["least_bolts"] = bars_json(support.least.bars, simulation);
-      one["most_bolts"] = support.most ? bars_json(support.most->bars, simulation) : Json(nullptr);
+    if (!support.least.forces.bars.empty()) {
+      one["least_bolts"] = bars_json(support.least.forces.bars, simulation);
+      one["most_bolts"] = support.most ? bars_json(support.most->forces.bars, simulation) : Json(nullptr);
     }
     for (const SupportMovement& movement : findings.movements)
       if (movement.support == support.support) one["movement"] = movement_summary(movement, simulation);
@@ -121,8 +126,25 @@ Json thrust_summary(const ThrustFindings& findings, const Simulation& simulation
   return json;
 }
 
-std::vector<BarForce> drawn_bars(const ThrustFindings& findings) {
-  return findings.supports.empty() ? std::vector<BarForce>() : findings.supports.front().least.bars;
+std::vector<ShownState> thrust_states(const ThrustFindings& findings, const Simulation& simulation) {
+  std::vector<ShownState> states;
+  if (!findings.motion.blocks.empty())
+    states.push_back({"onset of the motion, enlarged", drawn_motion(findings.motion, simulation), {}});
+  for (const SupportThrust& support : findings.supports) {
+    const std::string name = block_name(simulation, support.support);
+    const auto add = [&](const char* which, const ThrustLine& line) {
+      states.push_back({fmt::format("{} thrust on {}, {:.5g} N", which, name, line.thrust), {}, line.forces});
+    };
+    add("least", support.least);
+    if (support.most) add("largest", *support.most);
+  }
+  for (const SupportMovement& movement : findings.movements) {
+    const std::string name = block_name(simulation, movement.support);
+    const auto [out, in] = ways_in_words(movement);
+    add_state(states, movement.out, fmt::format("{} moved {:.5g} m {}", name, movement.out.lower, out));
+    add_state(states, movement.in, fmt::format("{} moved {:.5g} m {}", name, movement.in.lower, in));
+  }
+  return states;
 }
 
 void draw_thrust(const ThrustFindings& findings, const Scene& scene, const Simulation& simulation,

@@ -26,8 +26,9 @@ namespace ashlar {
 [[nodiscard]] nlohmann::ordered_json thrust_summary(const ThrustFindings& findings,
                                                     const Simulation& simulation);
 
-/// Forces of bolts and props to show: at the least thrust on the first support.
-[[nodiscard]] std::vector<BarForce> drawn_bars(const ThrustFindings& findings);
+/// The states of the answer: of the least and largest thrust of each support, and of the ends of movements.
+[[nodiscard]] std::vector<ShownState> thrust_states(const ThrustFindings& findings,
+                                                    const Simulation& simulation);
 
 /// Draws moving blocks, projected along the horizontal direction of their smallest extent, and the lines of least and
 /// largest thrust on the first support, as SVG. @throws std::runtime_error with path and reason

@@ -121,21 +121,20 @@ RigidModel Simulation::spring_model(double end_time, const std::vector<bool>& mu
   return ashlar::rigid_model(system_, state_, end_time, multiplied, RigidPointKind::springs);
 }
 
-void Simulation::displace(const std::vector<RigidDisplacement>& displacements) {
+void Simulation::show(const std::vector<Eigen::MatrixX3d>& positions, const std::vector<PairRecord>& contacts,
+                      double end_time) {
   told_.reset();
-  for (const RigidDisplacement& way : displacements) {
-    if (!system_.here(way.block)) continue;
-    Eigen::MatrixX3d& position = state_.states.at(at(way.block)).position;
-    const Eigen::VectorXd one =
-        constant_function(position.rows(), system_.blocks()[at(way.block)].basis().volume());
-    const double angle = way.rotation.norm();
-    const Vector3 axis = angle > 0.0 ? Vector3(way.rotation / angle) : Vector3(Vector3::UnitX());
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-    position = (position - one * way.about.transpose()) * turn.transpose() +
-               one * (way.about + way.translation).transpose();
-  }
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    if (system_.here(static_cast<int>(k))) state_.states.at(k).position = positions[k];
   for (BlockState& state : state_.states) state.velocity.setZero();
   state_.records.clear();
+  state_.report = {};
+  for (const PairRecord& contact : contacts) {
+    if (!system_.owns_pair(contact.a, contact.b)) continue;
+    count_states(contact.responses, state_.report);
+    state_.records.push_back(contact);
+  }
+  state_.clock = {.start = end_time};
   ++state_.steps;
 }
 

@@ -30,14 +30,6 @@ struct InitialMotion {
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
 };
 
-/// A rigid motion of a block: a rotation about a point and a translation.
-struct RigidDisplacement {
-  int block;
-  Vector3 about;        ///< m
-  Vector3 translation;  ///< m
-  Vector3 rotation;     ///< rad, along its axis
-};
-
 struct ContactExplanation;  // contact_explanation.hpp
 struct RigidModel;          // rigid_model.hpp
 struct SimulationSnapshot;  // checkpoint.hpp
@@ -138,9 +130,12 @@ class Simulation {
   [[nodiscard]] RigidModel rigid_model(double end_time, const std::vector<bool>& multiplied = {}) const;
   /// The same with springs in its joints, for a load path (load_path.hpp).
   [[nodiscard]] RigidModel spring_model(double end_time, const std::vector<bool>& multiplied = {}) const;
-  /// Places blocks elsewhere, at rest and without contacts, as a step of its own: to display the onset of motion. On
-  /// several ranks the same on all.
-  void displace(const std::vector<RigidDisplacement>& displacements);
+  /// Places blocks elsewhere, at rest and with forces found otherwise in their contacts, as a step of its own: to show the
+  /// state that an answer speaks of. On several ranks the same on all.
+  /// @param positions reference coefficients by block, (p, 3); empty: all blocks as they are. @param end_time of the
+  /// loads, s
+  void show(const std::vector<Eigen::MatrixX3d>& positions, const std::vector<PairRecord>& contacts,
+            double end_time);
   /// Blocks that a static analysis found to be moving, including blocks carried along. On several ranks those of this
   /// one, on the first one after gather_results() those of all.
   [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;

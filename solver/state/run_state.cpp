@@ -32,4 +32,12 @@ Vector3 force_on_a(const PairRecord& record) {
   return sum;
 }
 
+void count_states(const std::vector<PointResponse>& points, StepReport& report) {
+  for (const PointResponse& point : points) {
+    ++(point.state == ContactState::open     ? report.open
+       : point.state == ContactState::locked ? report.locked
+                                             : report.sliding);
+  }
+}
+
 }  // namespace ashlar

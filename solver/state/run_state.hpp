@@ -86,6 +86,8 @@ struct StepReport {
   /// True depth of the deepest point of any block in another one, beyond the initial overlap, m, >= 0
   double depth = 0.0;
 };
+/// Adds points to the numbers of a report by their states.
+void count_states(const std::vector<PointResponse>& points, StepReport& report);
 
 /// Largest penetration of any block in another one.
 struct DeepestPoint {

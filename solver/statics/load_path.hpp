@@ -48,6 +48,8 @@ class LoadPath {
   LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced, std::vector<double> allowed);
 
   [[nodiscard]] const RigidModel& model() const { return model_; }
+  /// True for joints whose strength is divided, by point of the model.
+  [[nodiscard]] const std::vector<bool>& reduced() const { return reduced_; }
 
   /// Joints without force but for the pretension of bars.
   [[nodiscard]] PathState unloaded() const;

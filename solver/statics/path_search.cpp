@@ -44,7 +44,11 @@ class PathSearch {
     }
     answer_.resolved = is_resolved();
     if (moves_) answer_.motion = path_.motion_of(*moves_, factors(*answer_.upper));
-    if (answer_.lower) answer_.displacement = rest_.rbegin()->second.end.displacement;
+    if (answer_.lower) {
+      const PathState& rest = rest_.rbegin()->second.end;
+      answer_.displacement = rest.displacement;
+      answer_.force = rest.force;
+    }
     if (!answer_.interrupted) find_onset();
     const bool few = path_.model().bodies.size() <= most_bodies_of_strength;
     if (!answer_.interrupted && answer_.lower && few) find_strength();

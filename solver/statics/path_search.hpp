@@ -21,7 +21,8 @@ struct PathAnswer {
   bool proven = false;          ///< blocks move at `upper`
   bool resolved = false;        ///< upper / lower - 1 is within the tolerance, or one of them is empty
   bool interrupted = false;
-  double displacement = 0.0;  ///< m, at `lower`, from the start of the path
+  double displacement = 0.0;           ///< m, at `lower`, from the start of the path
+  std::vector<Eigen::Vector3d> force;  ///< at `lower`, by point of the path's model, in its units
   /// Factor at which a joint first slides or opens over its whole face, within 1 % or the tolerance; empty: none up to
   /// `lower`
   std::optional<double> onset;

@@ -283,7 +283,13 @@ std::size_t loaded_bodies(const RigidModel& model) {
                                                 [](const RigidBody& body) { return !body.blocks.empty(); }));
 }
 
-std::vector<PairRecord> contact_records(const RigidModel& model, const std::vector<Eigen::Vector3d>& force) {
+std::vector<Eigen::Vector3d> in_newtons(const RigidModel& model, std::vector<Eigen::Vector3d> force) {
+  for (Eigen::Vector3d& f : force) f *= model.units.force();
+  return force;
+}
+
+std::vector<PairRecord> contact_records(const RigidModel& model, const std::vector<Eigen::Vector3d>& force,
+                                        const std::vector<bool>& divided, double factor) {
   constexpr double bears = 1e-9, at_limit = 1.0 - 1e-6;
   double largest = 0.0;
   for (const Eigen::Vector3d& f : force) largest = std::max(largest, f.norm());
@@ -297,7 +303,8 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
     const Vector3 on_a = sign * (point.frame.transpose() * force[k]);
     PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
     response.force = in_frame(point.contact, on_a);
-    const ConeStrength strength = strength_of(model, point, 1.0);
+    const bool weaker = !divided.empty() && divided[k];
+    const ConeStrength strength = strength_of(model, point, weaker ? factor : 1.0);
     const double shear = force[k].tail<2>().norm();
     const double limit =
         strength.friction * std::max(force[k][0], 0.0) + strength.cohesion * model.units.force();

@@ -162,9 +162,16 @@ enum class JointUse {
 /// Gives joints that lose strength the strength that they keep: limits are then on the safe side.
 void keep_residual_strength(RigidModel& model);
 
+/// Forces of points in N. @param force by point, in units of the model
+[[nodiscard]] std::vector<Eigen::Vector3d> in_newtons(const RigidModel& model,
+                                                      std::vector<Eigen::Vector3d> force);
+
 /// Forces of points as contacts of their pairs of blocks, lower block first. @param force N, by point, in its frame
+/// @param divided by point: true if its strength is divided by the factor, which decides what slides; empty: none is
 [[nodiscard]] std::vector<PairRecord> contact_records(const RigidModel& model,
-                                                      const std::vector<Eigen::Vector3d>& force);
+                                                      const std::vector<Eigen::Vector3d>& force,
+                                                      const std::vector<bool>& divided = {},
+                                                      double factor = 1.0);
 
 /// Velocity or acceleration of a body's centroid, and its rotation, from coordinates of the programme times a unit.
 struct RigidMotionOf {

@@ -118,9 +118,7 @@ StaticStatus verdict_of_path(const BlockSystem& system, const RunState& placed, 
   if (trial.outcome != LimitOutcome::stands) return StaticStatus::not_converged;
   for (std::size_t k = 0; k < placed.states.size(); ++k)
     state.states[k].position = system.blocks()[k].initial_state().position;
-  std::vector<Eigen::Vector3d> forces = trial.end.force;
-  for (Eigen::Vector3d& force : forces) force *= path.model().units.force();
-  state.records = contact_records(path.model(), forces);
+  state.records = contact_records(path.model(), in_newtons(path.model(), trial.end.force));
   state.statics.balanced = true;
   state.statics.moving = false;
   state.statics.rests_rigidly = true;

@@ -89,6 +89,7 @@ struct SupportPath {
                                    ///< number
   /// Reference coefficients of blocks at `lower`, by block, (p, 3)
   std::vector<Eigen::MatrixX3d> positions;
+  std::vector<PairRecord> contacts;  ///< forces in balance there, with the least thrust against the movement
   int programmes = 0;
   /// m, largest range of other orders of slip, if it is larger by more than the tolerance; not beyond the limit
   std::optional<double> farthest;

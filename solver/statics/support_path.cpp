@@ -253,6 +253,7 @@ class Path {
     constexpr double turned = 1e-4;  // rad
     std::map<PairKey, JointResultant> bearing;
     if (force_.size() == model_->points.size()) {
+      path_.contacts = contact_records(*model_, in_newtons(*model_, force_));
       for (const JointResultant& joint : joint_resultants(*model_, forces_of(*model_, force_)))
         bearing.emplace(key_of(joint.blocks), joint);
     }

@@ -62,14 +62,6 @@ void tally_slip(const ContactPair& pair, const PairResponse& response, const Eig
   if (!touches) tally.in_flight += slip;
 }
 
-void count_states(const std::vector<PointResponse>& points, StepReport& report) {
-  for (const PointResponse& point : points) {
-    ++(point.state == ContactState::open     ? report.open
-       : point.state == ContactState::locked ? report.locked
-                                             : report.sliding);
-  }
-}
-
 /// Largest depth of a pair's points, m, >= 0. Springs may be open and unloaded there.
 double deepest_of(const std::vector<double>& gaps) {
   double deepest = 0.0;

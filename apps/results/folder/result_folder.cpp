@@ -151,6 +151,11 @@ void ResultFolder::add_end(const Simulation& simulation) {
   add_frame(simulation);
 }
 
+void ResultFolder::add_state(const Simulation& simulation) {
+  progress_.elapsed = std::max(simulation.steps() - 1, 0);
+  add_end(simulation);
+}
+
 bool ResultFolder::frame_is_due(const Simulation& simulation) const {
   if (simulation.steps() == progress_.last_frame_step) return false;
   if (output_.every) return simulation.steps() % *output_.every == 0;

@@ -81,6 +81,10 @@ class ResultFolder {
   /// checkpoint removes them.
   void add_end(const Simulation& simulation);
 
+  /// Adds row and frame of a state of an answer: it has the time of its loads and then of its number, so that frames have
+  /// different times.
+  void add_state(const Simulation& simulation);
+
   /// Largest values, with displacements relative to the last reset by a stage.
   [[nodiscard]] LargestValues largest(const Simulation& simulation) const {
     return largest_values(simulation, drawn_.surfaces, progress_.origin.surfaces);

@@ -59,6 +59,8 @@ function answerText(summary) {
 
 /// Words for a frame of a static analysis. @param summary may be null
 function staticWords(frame, summary) {
+  const state = ((summary && summary.states) || []).find(({step}) => step === frame.step);
+  if (state) return state.name;
   const key = factorKey(summary);
   const isLast = frame === data.frames[data.frames.length - 1];
   if (key && isLast) return FACTORS[key] + " " + factorText(summary[key]);

@@ -202,7 +202,7 @@ TEST(Run, ASearchForAFactorEndsWithIt) {
     EXPECT_LE(summary.at("upper").get<double>(), 1.2 * 1.02);
     EXPECT_EQ(run.answer().bracket.has_value(), std::string(method) == "elastic");
     EXPECT_TRUE(run.answer().limits);
-    EXPECT_EQ(run.answer().drawn_only(), std::string(method) == "limit");
+    EXPECT_EQ(run.answer().shows_states(), std::string(method) == "limit");
     EXPECT_GE(run.rows().size(), 2U);
   }
 }
@@ -211,7 +211,7 @@ TEST(Run, ASearchIsStepped) {
   ashlar::Run run(loaded(cube_on_slope("type = \"factor-of-safety\", method = \"elastic\"")));
   // Limit analysis first, then iterations of trials: none of them is a step of the run.
   for (int k = 0; k < 3; ++k) EXPECT_TRUE(run.step());
-  EXPECT_TRUE(run.answer().drawn_only() || !run.answer().limits);
+  EXPECT_TRUE(run.answer().shows_states() || !run.answer().limits);
   EXPECT_EQ(run.simulation().steps(), 0);
   EXPECT_FALSE(run.status());
 }
