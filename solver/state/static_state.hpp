@@ -34,6 +34,13 @@ struct StaticOnset {
   std::vector<Eigen::MatrixX3d> starts;  ///< by block, positions at that time
 };
 
+/// Iterations that lead nowhere, each nearly in balance (statics/static_verdict.hpp).
+struct StaticCycle {
+  std::vector<Eigen::MatrixX3d>
+      positions;  ///< of blocks before the first of them, (p, 3); empty: there are none
+  int iterations = 0;
+};
+
 /// State of a static analysis between iterations.
 struct StaticState {
   double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0: none yet, nor an equilibrium
@@ -49,6 +56,7 @@ struct StaticState {
       level_start;  ///< by block, positions at the start of the load level; empty before
   StaticProgress progress;
   StaticOnset onset;
+  StaticCycle cycle;
 };
 
 }  // namespace ashlar

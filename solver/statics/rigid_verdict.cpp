@@ -7,6 +7,7 @@
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/statics/followed_collapse.hpp"
 #include "solver/statics/limit_analysis.hpp"
 #include "solver/statics/load_path.hpp"
 
@@ -69,19 +70,28 @@ RunState as_placed(const BlockSystem& system, const PairHistories& pairs) {
   return placed;
 }
 
+/// Blocks at their positions at the start of the present load level.
+RunState at_level_start(const BlockSystem& system, const RunState& state) {
+  RunState start = as_placed(system, state.pairs);
+  for (std::size_t k = 0; k < start.states.size(); ++k)
+    start.states[k].position = state.statics.level_start[k];
+  return start;
+}
+
+/// True if blocks neither change by themselves nor are driven.
+bool has_fixed_supports(const BlockSystem& system) {
+  return !system.any_incremental() && std::none_of(system.blocks().begin(), system.blocks().end(),
+                                                   [](const BlockModel& block) { return block.driven(); });
+}
+
 /// Verdict on an analysis without a result at a level of changed loads: nothing stands beyond the associated limit,
 /// whatever forces remain from earlier levels. Blocks are at their positions at the start of the level. A table
 /// tilted to its friction angle is at the limit, which is known to a part in a thousand (notes/limit_analysis.md).
 StaticStatus verdict_on_level(const BlockSystem& system, RunState& state, StaticStatus status) {
   constexpr double at_the_limit = 1.001;
-  const bool driven = std::any_of(system.blocks().begin(), system.blocks().end(),
-                                  [](const BlockModel& block) { return block.driven(); });
-  if (status != StaticStatus::not_converged || system.any_incremental() || driven) return status;
+  if (status != StaticStatus::not_converged || !has_fixed_supports(system)) return status;
   if (state.statics.level_start.empty()) return status;
-  RunState start = as_placed(system, state.pairs);
-  for (std::size_t k = 0; k < start.states.size(); ++k)
-    start.states[k].position = state.statics.level_start[k];
-  RigidModel model = rigid_model(system, start, state.time(), {});
+  RigidModel model = rigid_model(system, at_level_start(system, state), state.time(), {});
   if (loses_strength(model) || model.bodies.empty()) return status;
   LimitAnalysis analysis(
       std::move(model), [](int, int) { return true; }, system.settings().threads);
@@ -89,6 +99,13 @@ StaticStatus verdict_on_level(const BlockSystem& system, RunState& state, Static
   if (trial.outcome != LimitOutcome::moves) return status;
   note_motion(system, state, analysis.motion_of(trial));
   return StaticStatus::moving;
+}
+
+/// True if all joints have friction only.
+bool is_dry(const RigidModel& model) {
+  return std::all_of(model.points.begin(), model.points.end(), [](const RigidPoint& point) {
+    return !point.bar && !(point.law.cohesion > 0.0) && !(point.law.tensile_strength > 0.0);
+  });
 }
 
 /// Displacements from which on blocks are not at rest where they are placed, by body, m.
@@ -155,6 +172,33 @@ StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double en
   const bool tried = state.statics.iterations >= system.settings().statics.iterations;
   if (status == StaticStatus::equilibrium || !(tried || is_rigid(system, analysis.model()))) return status;
   return verdict_of_path(system, placed, end_time, state);
+}
+
+StaticStatus rigid_collapse(const BlockSystem& system, RunState& state, double end_time) {
+  constexpr double stronger = 1.0 / 1.001;
+  if (!has_fixed_supports(system) || state.statics.level_start.empty() ||
+      !state.reached(system.settings().time_step, end_time))
+    return StaticStatus::balancing;
+  const RunState start = at_level_start(system, state);
+  RigidModel model = rigid_model(system, start, end_time, {});
+  if (model.bodies.empty() || !is_dry(model) || loses_strength(model)) return StaticStatus::balancing;
+  LimitAnalysis analysis(
+      std::move(model), [](int, int) { return true; }, system.settings().threads);
+  const LimitTrial trial = analysis.associated({stronger, 1.0});
+  if (trial.outcome != LimitOutcome::moves) return StaticStatus::balancing;
+  const Collapse collapse =
+      follow_collapse({system, start.states, start.pairs, end_time, system.settings().threads},
+                      system.settings().statics.displacement_limit);
+  if (collapse.end != CollapseEnd::goes_far) return StaticStatus::balancing;
+  // Accelerations at the onset are those of the iterations, with the compliance that they have, if blocks moved there.
+  StaticState& statics = state.statics;
+  const bool known =
+      std::any_of(statics.onset.unbalanced.begin(), statics.onset.unbalanced.end(),
+                  [](const Eigen::MatrixX3d& acceleration) { return !acceleration.isZero(0.0); });
+  if (!known) note_motion(system, state, analysis.motion_of(trial));
+  statics.moving = true;
+  statics.progress.displacements = collapse.displacements;
+  return StaticStatus::moving;
 }
 
 }  // namespace ashlar

@@ -25,4 +25,9 @@ namespace ashlar {
 [[nodiscard]] StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double end_time,
                                          StaticStatus status);
 
+/// Verdict on an analysis that goes on, of one rank: moving if no forces within the strengths balance the loads where the
+/// level began, and rigid blocks followed from there go far (followed_collapse.hpp). Joints with friction only, no bolts.
+/// @return moving, with the motion recorded, or balancing: undecided
+[[nodiscard]] StaticStatus rigid_collapse(const BlockSystem& system, RunState& state, double end_time);
+
 }  // namespace ashlar

@@ -263,6 +263,9 @@ class StaticIteration {
       note_accelerations(system_, state_, caches_.factors.islands, problem_);
     }
     const bool repeat = multipliers_repeat(system_, problem_);
+    const bool back = repeats_motion(system_, state_, problem_,
+                                     converged && !statics.moving && !statics.freezes_failure && repeat &&
+                                         (scheme.inertia <= least_ || least_ == 0.0));
     note_residuals(system_, problem_, statics);
     accept(system_, state_, caches_, std::move(problem_));
     state_.report.step = step_of(scheme);
@@ -281,7 +284,7 @@ class StaticIteration {
     const bool settled =
         still && (repeat || statics.multiplier_iterations > system_.settings().statics.multiplier_iterations);
     statics.still_iterations = settled ? statics.still_iterations + 1 : 0;
-    statics.balanced = statics.still_iterations >= 2;
+    statics.balanced = statics.still_iterations >= 2 || (back && !ruptured);
     // Iterations are audited after large motion, and roughly after the onset of motion; an equilibrium is audited
     // completely.
     if (statics.balanced) {

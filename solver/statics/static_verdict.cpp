@@ -15,6 +15,11 @@
 namespace ashlar {
 namespace {
 
+/// Iterations of a cycle: displacements of unstable blocks grow by factors, so that they are seen by then.
+constexpr int repeating_iterations = 16;
+/// Largest residual in a cycle, of the largest force on its block.
+constexpr double repeating_share = 1e-8;
+
 /// Share of settings.statics.displacement_limit: blocks with this displacement at the last iteration are moving
 /// slowly.
 constexpr double slow_share = 0.1;
@@ -102,6 +107,13 @@ bool has_converged(const BlockSystem& system, const StepProblem& problem) {
                                          [](const BodyStep& body) { return body.residual > 0.0; }));
 }
 
+/// Acceleration that an iteration of a block lacks for balance, times density, N m^-3/2.
+double lacking_force(const BlockSystem& system, const StepProblem& problem, std::size_t block) {
+  const BodyStep& body = problem.bodies[block];
+  return system.blocks()[block].material().density * problem.scheme.inertia * body.change.norm() +
+         body.residual;
+}
+
 bool note_balance(const BlockSystem& system, RunState& state, const StepProblem& problem) {
   bool balanced = true;
   const std::vector<bool> held = system.held_without_contacts();
@@ -109,8 +121,7 @@ bool note_balance(const BlockSystem& system, RunState& state, const StepProblem&
     if (!system.moving()[k] || !system.owns(static_cast<int>(k))) continue;
     const BodyStep& body = problem.bodies[k];
     const BlockModel& block = system.blocks()[k];
-    const double lacking =
-        block.material().density * problem.scheme.inertia * body.change.norm() + body.residual;
+    const double lacking = lacking_force(system, problem, k);
     const Eigen::MatrixX3d position = state.states[k].position + body.motion();
     if (lacking <= system.settings().statics.tolerance * body.largest_force + body.roundoff_force) {
       state.statics.progress.displacements[k] = 0.0;
@@ -130,6 +141,37 @@ bool note_balance(const BlockSystem& system, RunState& state, const StepProblem&
   }
   state.statics.moving = any_of_run(system, state.statics.moving);
   return all_of_run(system, balanced);
+}
+
+bool repeats_motion(const BlockSystem& system, RunState& state, const StepProblem& problem, bool calm) {
+  StaticCycle& cycle = state.statics.cycle;
+  double way = 0.0;  // since the start of the cycle, in block sizes
+  for (std::size_t k = 0; k < system.blocks().size(); ++k) {
+    if (!system.moving()[k] || !system.owns(static_cast<int>(k))) continue;
+    const BodyStep& body = problem.bodies[k];
+    calm = calm &&
+           lacking_force(system, problem, k) <= repeating_share * body.largest_force + body.roundoff_force;
+    if (cycle.positions.empty()) continue;
+    const Eigen::MatrixX3d position = state.states[k].position + body.motion();
+    way = std::max(
+        way, mean_motion(system.blocks()[k], position - cycle.positions[k]) / block_size(system.blocks()[k]));
+  }
+  if (!all_of_run(system, calm)) {
+    cycle = {};
+    return false;
+  }
+  ++cycle.iterations;
+  if (!cycle.positions.empty() && cycle.iterations < repeating_iterations) return false;
+  const bool came_back =
+      !cycle.positions.empty() && most_of_run(system, way) <= system.settings().statics.stillness;
+  cycle.positions.clear();
+  for (std::size_t k = 0; k < system.blocks().size(); ++k) {
+    const bool moves = system.moving()[k] && system.owns(static_cast<int>(k));
+    cycle.positions.emplace_back(state.states[k].position);
+    if (moves) cycle.positions.back() += problem.bodies[k].motion();
+  }
+  cycle.iterations = 0;
+  return came_back;
 }
 
 void forget_accelerations(RunState& state) {

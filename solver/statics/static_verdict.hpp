@@ -24,6 +24,11 @@ namespace ashlar {
 /// Records the accelerations to be reported for moving blocks. @param problem solved, not accepted
 void note_accelerations(const BlockSystem& system, RunState& state, IslandSolvers& solvers,
                         const StepProblem& problem);
+/// Notes an iteration, before it is accepted, as one of a cycle if it is nearly in balance. @param calm false: it is none
+/// @return true if blocks have come back to where they were some iterations before: they repeat the same motion
+/// (notes/when_statics_end.md)
+[[nodiscard]] bool repeats_motion(const BlockSystem& system, RunState& state, const StepProblem& problem,
+                                  bool calm);
 /// Discards recorded accelerations, after an iteration in equilibrium.
 void forget_accelerations(RunState& state);
 /// True if multipliers have converged: they equal the forces at the end of the iteration.

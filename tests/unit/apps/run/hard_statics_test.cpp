@@ -1,0 +1,116 @@
+// Static analyses that needed many iterations: blocks that start to move slowly, and friction that alternates.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "unit/apps/run_fixture.hpp"
+
+namespace ashlar::hard_statics_test {
+namespace {
+
+class HardStatics : public RunCommand {
+ protected:
+  nlohmann::json summary_of(const std::string& text_of_scene) {
+    write_text(scene_, text_of_scene);
+    EXPECT_EQ(run("out", {"--force"}), exit_status::done) << faults_;
+    return nlohmann::json::parse(text("out/summary.json"));
+  }
+};
+
+// A wall under a horizontal share alpha of its weight turns over at alpha = (t / 2) / z = 0.45 / 2.25. Springs make it
+// lean before, so that it falls a little earlier, never later.
+TEST_F(HardStatics, AWallThatTurnsOverSlowlyIsToldSoon) {
+  const std::string wall = R"(
+analysis = { type = "static", gravity = [0, "= 9.81*alpha", -9.81] }
+contact = { friction_angle = 31 }
+material = [{ name = "stone", density = 2100, young_modulus = 2e9, poisson_ratio = 0.2 }]
+block = [{ name = "base", fixed = true, box = { min = [-1,-1,-0.5], max = [5,2,0] } }]
+masonry = [{ name = "wall", kind = "wall", material = "stone", order = 0, length = 4, height = 4.5, thickness = 0.9, brick = [2,0.9,1.5] }]
+)";
+  EXPECT_EQ(summary_of("parameters = { alpha = 0.198 }" + wall).at("status"), "equilibrium");
+  const nlohmann::json moving = summary_of("parameters = { alpha = 0.2002 }" + wall);
+  EXPECT_EQ(moving.at("status"), "moving");
+  EXPECT_LE(moving.at("steps"), 16);
+}
+
+// Excavation in stressed ground, joints of given stiffness: friction of two blocks alternates, by 3e-8 of their size.
+TEST_F(HardStatics, ATunnelWithJointsOfGivenStiffnessStands) {
+  const nlohmann::json summary =
+      summary_of(R"toml(title = "Tunnel at 90 m depth, three joint sets, two rounds"
+[parameters]
+weight = "= 2650*9.81"
+top = 14
+surface = 90
+[analysis]
+type = "static"
+[contact]
+friction_angle = 28
+normal_stiffness = 1e10
+shear_stiffness = 5e9
+[[material]]
+name = "rock"
+density = 2650
+young_modulus = 1.5e10
+poisson_ratio = 0.25
+[initial_stress]
+k0 = 0.7
+surface = "= surface"
+[[block]]
+name = "rock"
+material = "rock"
+box = { min = [-8, 0, 0], max = [8, 4, "= top"] }
+fix = [
+ { plane = { point = [0,0,0], normal = [0,0,1] } },
+ { plane = { point = [-8,0,0], normal = [1,0,0] }, components = ["x"] },
+ { plane = { point = [8,0,0], normal = [1,0,0] }, components = ["x"] },
+ { plane = { point = [0,0,0], normal = [0,1,0] }, components = ["y"] },
+ { plane = { point = [0,4,0], normal = [0,1,0] }, components = ["y"] },
+]
+load = [{ plane = { point = [0,0,"= top"], normal = [0,0,1] }, traction = [0,0,"= -weight*(surface-top)"] }]
+[[cut]]
+name = "round1"
+blocks = ["rock"]
+solid.hull.points = [[-2.5,0,3],[2.5,0,3],[2.5,0,6],[-2.5,0,6],[1.5,0,7.2],[-1.5,0,7.2],[-2.5,2,3],[2.5,2,3],[2.5,2,6],[-2.5,2,6],[1.5,2,7.2],[-1.5,2,7.2]]
+[[cut]]
+name = "round2"
+blocks = ["rock"]
+solid.hull.points = [[-2.5,2,3],[2.5,2,3],[2.5,2,6],[-2.5,2,6],[1.5,2,7.2],[-1.5,2,7.2],[-2.5,4,3],[2.5,4,3],[2.5,4,6],[-2.5,4,6],[1.5,4,7.2],[-1.5,4,7.2]]
+[[cut]]
+name = "east"
+blocks = ["rock"]
+dip = 58
+dip_direction = 90
+point = [1.9, 0, 7.2]
+spacing = 3.2
+[[cut]]
+name = "west"
+blocks = ["rock"]
+dip = 62
+dip_direction = 270
+point = [-1.9, 0, 7.2]
+spacing = 3.2
+[[cut]]
+name = "across"
+blocks = ["rock"]
+dip = 85
+dip_direction = 5
+point = [0, 2.2, 7.2]
+min_volume = 0.01
+[[stage]]
+name = "in situ"
+[[stage]]
+name = "round 1"
+remove = ["rock.round1.inside.*"]
+reset_displacement = true
+[[stage]]
+name = "round 2"
+remove = ["rock.round2.inside.*"]
+)toml");
+  EXPECT_EQ(summary.at("status"), "equilibrium");
+  ASSERT_EQ(summary.at("stages").size(), 3U);
+  for (const nlohmann::json& stage : summary.at("stages")) EXPECT_LE(stage.at("steps"), 100) << stage;
+}
+
+}  // namespace
+}  // namespace ashlar::hard_statics_test
