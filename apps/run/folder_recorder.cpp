@@ -55,6 +55,11 @@ ResultFolderState FolderRecorder::synced_state() {
   return files_->synced_state();
 }
 
+void FolderRecorder::add_peaks(nlohmann::ordered_json& summary) const {
+  if (!files_) return;
+  if (nlohmann::ordered_json peaks = files_->peaks(); !peaks.empty()) summary["peaks"] = std::move(peaks);
+}
+
 void FolderRecorder::write_summary(const Run& run) const {
   claim_->check();
   write_file_atomically(claim_->folder() / "summary.json",

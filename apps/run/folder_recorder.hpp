@@ -37,6 +37,8 @@ class FolderRecorder : public RunObserver {
   [[nodiscard]] LargestValues largest(const Simulation& simulation) const {
     return files_->largest(simulation);
   }
+  /// Adds `peaks` of the measures, if there are any.
+  void add_peaks(nlohmann::ordered_json& summary) const;
   void write_summary(const Run& run) const;
 
   [[nodiscard]] const FolderClaim& claim() const { return *claim_; }

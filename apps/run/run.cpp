@@ -250,7 +250,9 @@ void Run::take_step() {
     if (whole().analysis.automatic_step) note_step(simulation, accuracy_.motion);
     if (!accept_step()) return;
   }
-  if (simulation.reached(end_time)) end_stage(RunStatus::completed, "");
+  if (simulation.reached(end_time))
+    end_stage(RunStatus::completed,
+              tells_motion() ? describe(verdict_of(simulation, motion_), simulation) : std::string());
 }
 
 void Run::take_iteration() {
@@ -297,8 +299,14 @@ void Run::show_state() {
   end_stage(end.status, std::move(end.message));
 }
 
+/// True if the present stage is a motion in time of blocks that this process knows all of.
+bool Run::tells_motion() const {
+  return scene().analysis.type == SceneAnalysis::Type::dynamic && !shared();
+}
+
 /// @return false if its results could not be written
 bool Run::accept_step() {
+  if (tells_motion()) motion_.note(simulation());
   if (shared()) gather_due();
   return record_step();
 }

@@ -19,6 +19,7 @@
 
 #include "apps/results/folder/accuracy_state.hpp"
 #include "apps/results/folder/contact_changes.hpp"
+#include "apps/results/folder/motion_verdict.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_clock.hpp"
@@ -200,6 +201,7 @@ class Run {
   bool record_step();
   void end_stage(RunStatus status, std::string message);
   void end(RunStatus status);
+  [[nodiscard]] bool tells_motion() const;
   void fail_in_step(const std::exception& error);
   void fail_to_write(const std::exception& error);
   void interrupt();
@@ -232,6 +234,7 @@ class Run {
   std::vector<GoalError> measure_errors_;
   std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
   ResultNeeds row_needs_;            ///< of a row, on processes that share the run
+  FallRecord motion_;              ///< of steps in time
   ContactChanges changes_;           ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;

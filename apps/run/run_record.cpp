@@ -168,6 +168,7 @@ void Run::resume(RunCheckpoint checkpoint) {
         analysis.end_time, simulation().time()));
   finished_ = checkpoint.stages;
   changes_ = checkpoint.changes;
+  motion_ = checkpoint.motion;
   place_ = {static_cast<int>(finished_.size()) + 1, checkpoint.folder.progress.elapsed,
             checkpoint.folder.progress.origin};
   clock_.add_earlier(checkpoint.seconds);
@@ -179,11 +180,17 @@ bool Run::saved() const {
 }
 
 RunCheckpoint Run::checkpoint() const {
-  return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_, accuracy_};
+  return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_, accuracy_, motion_};
 }
 
 RunCheckpoint Run::checkpoint_without_pairs() const {
-  return {built_.simulation.snapshot_without_pairs(), finished_, {}, clock_.seconds(), changes_, accuracy_};
+  return {built_.simulation.snapshot_without_pairs(),
+          finished_,
+          {},
+          clock_.seconds(),
+          changes_,
+          accuracy_,
+          motion_};
 }
 
 LargestValues Run::largest() const {
@@ -220,6 +227,8 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
     summary["error"] = error_summary(simulation(), errors);
   if (!measure_errors_.empty()) add_measure_errors(scene(), measure_errors_, summary["error"]);
   add_answer(summary, answer_, whole().analysis, simulation());
+  if (tells_motion()) summary["verdict"] = verdict_json(verdict_of(simulation(), motion_), simulation());
+  if (recorder_) recorder_->add_peaks(summary);
   add_origin(summary, whole().origin);
   return json_text(summary, 2) + "\n";
 }

@@ -27,15 +27,20 @@ struct RunValues {
     const auto column =
         std::find_if(at_end.begin(), at_end.end(), [&](const auto& entry) { return entry.first == name; });
     if (column != at_end.end()) return column->second;
-    const Json* place = &summary;
-    for (std::size_t from = 0; from <= name.size();) {
-      const std::size_t dot = std::min(name.find('.', from), name.size());
-      const auto next = place->is_object() ? place->find(name.substr(from, dot - from)) : place->end();
-      if (!place->is_object() || next == place->end()) return std::nullopt;
-      place = &*next;
-      from = dot + 1;
+    return number_in(summary, name);
+  }
+
+ private:
+  /// The number at a path of keys with dots between, which keys may have, too.
+  static std::optional<double> number_in(const Json& place, std::string_view path) {
+    if (path.empty()) return place.is_number() ? std::optional(place.get<double>()) : std::nullopt;
+    if (!place.is_object()) return std::nullopt;
+    for (const auto& [key, value] : place.items()) {
+      if (!path.starts_with(key) || (path.size() > key.size() && path[key.size()] != '.')) continue;
+      const std::string_view rest = path.substr(std::min(key.size() + 1, path.size()));
+      if (const auto found = number_in(value, rest)) return found;
     }
-    return place->is_number() ? std::optional(place->get<double>()) : std::nullopt;
+    return std::nullopt;
   }
 };
 

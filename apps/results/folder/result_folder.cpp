@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -41,6 +42,16 @@ constexpr const char* contact_columns =
     "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,normal_force.x,"
     "normal_force.y,"
     "normal_force.z,shear_force.x,shear_force.y,shear_force.z,work\n";
+
+void note_peaks(const std::vector<double>& row, double time, std::vector<ColumnPeak>& peaks) {
+  peaks.resize(row.size());
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    ColumnPeak& peak = peaks[k];
+    if (std::isnan(row[k])) continue;
+    if (!(row[k] >= peak.least)) peak.least = row[k], peak.least_time = time;
+    if (!(row[k] <= peak.largest)) peak.largest = row[k], peak.largest_time = time;
+  }
+}
 
 }  // namespace
 
@@ -164,9 +175,30 @@ bool ResultFolder::frame_is_due(const Simulation& simulation) const {
   return simulation.time() + 0.5 * simulation.report().step >= due;
 }
 
+nlohmann::ordered_json ResultFolder::peaks() const {
+  const auto value = [](double number, double time) {
+    return std::isnan(number) ? nlohmann::ordered_json(nullptr)
+                              : nlohmann::ordered_json{{"value", number}, {"time", time}};
+  };
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  const std::vector<std::string> columns = history_columns(measures_, progress_.stage > 0);
+  for (std::size_t k = 1; k < columns.size() && k <= progress_.peaks.size(); ++k) {
+    const bool measured = std::any_of(measures_.begin(), measures_.end(), [&](const Measure& measure) {
+      return columns[k].starts_with(measure.name + ".");
+    });
+    if (!measured) continue;
+    const ColumnPeak& peak = progress_.peaks[k - 1];
+    json[columns[k]] = {{"least", value(peak.least, peak.least_time)},
+                        {"largest", value(peak.largest, peak.largest_time)}};
+  }
+  return json;
+}
+
 void ResultFolder::add_row(const Simulation& simulation) {
   if (simulation.steps() == progress_.last_row_step) return;
-  history_.append(simulation.steps(), history_row(simulation, measures_, progress_.origin, progress_.stage));
+  const std::vector<double> row = history_row(simulation, measures_, progress_.origin, progress_.stage);
+  history_.append(simulation.steps(), row);
+  note_peaks(row, progress_.elapsed + simulation.time(), progress_.peaks);
   progress_.last_row_step = simulation.steps();
 }
 

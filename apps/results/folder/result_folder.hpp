@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +38,14 @@ struct StagePlace {
 [[nodiscard]] DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
                                            const DrawnBlocks& drawn);
 
+/// Extremes of a column of the history so far, with their times, s; nan: it has had no value.
+struct ColumnPeak {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  double least_time = 0.0;
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  double largest_time = 0.0;
+};
+
 /// Progress of the files.
 struct ResultProgress {
   int last_row_step = -1;  ///< in history.csv
@@ -44,6 +54,7 @@ struct ResultProgress {
   int stage = 0;              ///< 1-based; 0: the run has none
   double elapsed = 0.0;       ///< s, of all stages before
   DisplacementOrigin origin;
+  std::vector<ColumnPeak> peaks;  ///< by value of a row of the history
 };
 
 /// State of the files, stored in a checkpoint.
@@ -94,6 +105,8 @@ class ResultFolder {
   [[nodiscard]] ResultFolderState synced_state();
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+  /// Extremes of the columns of measures: by column, least and largest, each value and time; null: none.
+  [[nodiscard]] nlohmann::ordered_json peaks() const;
   [[nodiscard]] int frames() const { return static_cast<int>(frames_->frames().size()); }
 
  private:

@@ -10,6 +10,7 @@
 
 #include "apps/results/folder/accuracy_state.hpp"
 #include "apps/results/folder/contact_changes.hpp"
+#include "apps/results/folder/motion_verdict.hpp"
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_outcome.hpp"
 #include "solver/run/checkpoint.hpp"
@@ -27,6 +28,7 @@ struct RunCheckpoint {
   RunSeconds seconds;
   ContactChanges changes;  ///< of static iterations of the present stage
   AccuracyState accuracy;  ///< of a scene with an accuracy
+  FallRecord motion = {};  ///< of steps in time
 };
 
 /// Reason why a run cannot be continued: no checkpoint, a damaged one, or one of another scene. what() is a message
