@@ -228,9 +228,11 @@ struct CutSolid::State {
     return {Integer(-a), Integer(-b), Integer(-c)};
   }
 
-  [[nodiscard]] KeyBlock key_block(int index, const std::vector<HeldFace>& held, const Vector3& force) const {
+  [[nodiscard]] KeyBlock key_block(int index, const std::vector<HeldFace>& held, const Vector3& force,
+                                   const std::vector<Vector3>& barred) const {
     std::vector<IntegerVector> holding, free;
     for (const HeldFace& face : held) holding.push_back(outward(face.plane, face.below));
+    for (const Vector3& normal : barred) holding.push_back(in_integers(normal));
     for (const auto& [face, below] : surface(index)) {
       const int plane = complex.face(face).plane;
       const bool is_held = std::any_of(held.begin(), held.end(), [&, side = below](const HeldFace& of) {
@@ -329,8 +331,9 @@ TriangleMesh CutSolid::mesh(int piece, double resolution) const {
   return mesh_of_faces(state_->complex, state_->surface(piece), state_->merged(resolution));
 }
 
-KeyBlock CutSolid::key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force) const {
-  return state_->key_block(piece, held, force);
+KeyBlock CutSolid::key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force,
+                             const std::vector<Vector3>& barred) const {
+  return state_->key_block(piece, held, force, barred);
 }
 
 }  // namespace ashlar

@@ -87,8 +87,10 @@ class CutSolid {
   /// @param resolution m, >= 0
   [[nodiscard]] TriangleMesh mesh(int piece, double resolution = 0.0) const;
   /// @param held faces that restrain the piece; KeyBlock::faces are indices into it. @param force of any length but
-  /// zero
-  [[nodiscard]] KeyBlock key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force) const;
+  /// zero. @param barred directions, of any length but zero, along which the piece cannot move, as outward normals of
+  /// further faces that restrain it: their indices follow those of `held`
+  [[nodiscard]] KeyBlock key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force,
+                                   const std::vector<Vector3>& barred = {}) const;
 
  private:
   struct State;

@@ -23,11 +23,6 @@ bool leads_away(const IntegerVector& direction, const std::vector<IntegerVector>
                      [&](const IntegerVector& normal) { return sgn(dot(normal, direction)) <= 0; });
 }
 
-IntegerVector in_integers(const Vector3& v) {
-  const ExactPoint point = ExactPoint::of(v);
-  return {point.x, point.y, point.z};
-}
-
 Vector3 unit(const IntegerVector& v) {
   return round_unit_vector({Rational(v[0]), Rational(v[1]), Rational(v[2])});
 }
@@ -89,6 +84,11 @@ bool slides_on_two(const std::vector<IntegerVector>& held, const IntegerVector& 
 }
 
 }  // namespace
+
+IntegerVector in_integers(const Vector3& v) {
+  const ExactPoint point = ExactPoint::of(v);
+  return {point.x, point.y, point.z};
+}
 
 const char* to_string(BlockMode mode) {
   switch (mode) {

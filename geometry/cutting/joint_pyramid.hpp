@@ -14,6 +14,9 @@ using IntegerVector = std::array<Integer, 3>;
 /// True if there is an s other than zero with n . s <= 0 for all n.
 [[nodiscard]] bool has_direction(const std::vector<IntegerVector>& normals);
 
+/// A direction, exactly up to its length.
+[[nodiscard]] IntegerVector in_integers(const Vector3& v);
+
 /// @param held outward normals of the faces that restrain the block; KeyBlock::faces are indices into it.
 /// @param free those of its other faces. @param force of any length but zero
 [[nodiscard]] KeyBlock find_key_block(const std::vector<IntegerVector>& held,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/index.hpp"
+#include "solver/statics/held_bodies.hpp"
 #include "solver/statics/limit_analysis.hpp"
 
 namespace ashlar {
@@ -10,32 +11,10 @@ namespace {
 
 std::unique_ptr<LimitAnalysis> with_others_held(const RigidModel& model, const std::vector<bool>& reduced,
                                                 std::size_t body) {
-  RigidModel held;
-  held.units = model.units;
-  held.bodies = {model.bodies[body]};
-  held.steady = {model.steady[body]};
-  held.multiplied = {model.multiplied[body]};
-  held.body_of.assign(model.body_of.size(), -1);
-  for (const int block : model.bodies[body].blocks) held.body_of[at(block)] = 0;
-  std::vector<bool> reduced_points;
-  ConePair fixed{{0, -1}, 0, 0};
-  for (const ConePair& pair : model.pairs) {
-    const bool first = pair.bodies[0] == static_cast<int>(body);
-    if (!first && pair.bodies[1] != static_cast<int>(body)) continue;
-    for (std::size_t k = pair.begin; k < pair.end; ++k) {
-      RigidPoint point = model.points[k];
-      if (!first) {
-        std::swap(point.blocks[0], point.blocks[1]);
-        std::swap(point.bodies[0], point.bodies[1]);
-        point.frame.topRows<2>() *= -1.0;
-      }
-      held.points.push_back(std::move(point));
-      reduced_points.push_back(reduced[k]);
-    }
-  }
-  fixed.end = held.points.size();
-  if (fixed.end > 0) held.pairs = {fixed};
-  auto analysis = std::make_unique<LimitAnalysis>(std::move(held), std::move(reduced_points), 1);
+  std::vector<bool> free(model.bodies.size(), false);
+  free[body] = true;
+  HeldModel held = with_held_bodies(model, free, reduced);
+  auto analysis = std::make_unique<LimitAnalysis>(std::move(held.model), std::move(held.reduced), 1);
   analysis->keep_parts();
   return analysis;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/program/blocks/block_histogram.hpp"
+#include "apps/results/text/csv_text.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
 #include "apps/scene/read/analysis_json.hpp"
 #include "geometry/boxes/box.hpp"
@@ -32,15 +33,35 @@ std::string sizes_text(const BlockReport& report) {
   return text;
 }
 
-std::string removable_text(const Scene& scene, const std::vector<RemovableBlock>& removable) {
+/// Of blocks that leave or slide, in the order of their factors.
+std::vector<RemovableBlock> key_blocks(const std::vector<RemovableBlock>& removable) {
+  std::vector<RemovableBlock> keys;
+  for (const RemovableBlock& of : removable)
+    if (of.key.removable && of.key.mode != BlockMode::stable) keys.push_back(of);
+  std::stable_sort(keys.begin(), keys.end(), [](const RemovableBlock& a, const RemovableBlock& b) {
+    return a.factor_of_safety < b.factor_of_safety;
+  });
+  return keys;
+}
+
+std::string removable_text(const BlockReport& report, const std::vector<RemovableBlock>& removable) {
+  const Scene& scene = report.loaded().scene;
   const auto movable = std::count_if(removable.begin(), removable.end(),
                                      [](const RemovableBlock& of) { return of.key.removable; });
-  std::string text =
-      fmt::format("{} blocks with a free face, {} of them removable\n", removable.size(), movable);
-  for (const RemovableBlock& of : removable) {
-    if (!of.key.removable || of.key.mode == BlockMode::stable) continue;
-    text += fmt::format("  {}: {}, factor of safety by friction {:.4g}\n", scene.block[of.block].name,
-                        to_string(of.key.mode), of.factor_of_safety);
+  const std::vector<RemovableBlock> keys = key_blocks(removable);
+  std::string text = fmt::format("{} blocks with a free face, {} of them removable, {} key blocks\n",
+                                 removable.size(), movable, keys.size());
+  if (keys.empty()) return text;
+  text +=
+      "key block                volume, m^3   factor   force, kN   centroid, m                direction\n";
+  for (const RemovableBlock& of : keys) {
+    const Vector3 at = scene.origin + centroid_of(report.loaded().solids[of.block]);
+    const Vector3& way = of.key.direction;
+    text +=
+        fmt::format("{:<24} {:>11.4g} {:>8.4g} {:>11.4g}   {:<24} {:<20} {}\n", scene.block[of.block].name,
+                    report.blocks()[of.block].volume, of.factor_of_safety, 1e-3 * of.needed,
+                    fmt::format("{:.4g}, {:.4g}, {:.4g}", at.x(), at.y(), at.z()),
+                    fmt::format("{:.2f}, {:.2f}, {:.2f}", way.x(), way.y(), way.z()), to_string(of.key.mode));
   }
   return text;
 }
@@ -51,7 +72,9 @@ Json key_json(const RemovableBlock& of) {
           {"removable", of.key.removable},
           {"mode", to_string(of.key.mode)},
           {"direction", way.isZero(0.0) ? Json() : Json{way.x(), way.y(), way.z()}},
-          {"factor_of_safety", of.factor_of_safety}};
+          {"factor_of_safety", of.factor_of_safety},
+          {"weight", of.weight},
+          {"needed_force", of.needed}};
 }
 
 Json neighbours_json(const Scene& scene, const BlockEntry& entry) {
@@ -86,7 +109,7 @@ std::string report_text(const BlockReport& report, const std::vector<RemovableBl
       text += fmt::format(", {} pieces below {:g} m^3 glued", scene.rock->glued[k], scene.cut[k].min_volume);
     text += '\n';
   }
-  if (removable != nullptr) text += removable_text(scene, *removable);
+  if (removable != nullptr) text += removable_text(report, *removable);
   return text;
 }
 
@@ -113,6 +136,28 @@ Json report_json(const BlockReport& report, const std::vector<RemovableBlock>* r
   if (removable != nullptr)
     for (const RemovableBlock& of : *removable) blocks[place[of.block]]["key"] = key_json(of);
   return {{"count", blocks.size()}, {"volume", report.volume()}, {"blocks", std::move(blocks)}};
+}
+
+std::string removable_csv(const BlockReport& report, const std::vector<RemovableBlock>& removable) {
+  const Scene& scene = report.loaded().scene;
+  std::string text =
+      "block,volume,x,y,z,mode,direction_x,direction_y,direction_z,factor_of_safety,weight,needed_force\n";
+  for (const RemovableBlock& of : key_blocks(removable)) {
+    text += quote_csv_field(scene.block[of.block].name);
+    const Vector3 at = scene.origin + centroid_of(report.loaded().solids[of.block]);
+    const Vector3& way = of.key.direction;
+    const auto add = [&text](double value) {
+      text += ',';
+      append_csv_number(text, value);
+    };
+    add(report.blocks()[of.block].volume);
+    for (const double value : {at.x(), at.y(), at.z()}) add(value);
+    text += fmt::format(",{}", to_string(of.key.mode));
+    for (const double value : {way.x(), way.y(), way.z(), of.factor_of_safety, of.weight, of.needed})
+      add(value);
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace ashlar

@@ -16,8 +16,12 @@ namespace ashlar {
 /// { count, volume, blocks: [{ name, names, volume, centroid, box: { min, max }, faces, material, neighbours: [{ block,
 /// area, cut }], key }] }, of the blocks that are there in the stage of the scene; `names` are other names of a piece;
 /// cut is null if no cut divided the two, material if a fixed block has none. `key` is present for examined blocks: {
-/// finite, removable, mode, direction, factor_of_safety }, the factor null if infinite.
+/// finite, removable, mode, direction, factor_of_safety, weight, needed_force (N) }, the factor null if infinite.
 [[nodiscard]] nlohmann::ordered_json report_json(const BlockReport& report,
                                                  const std::vector<RemovableBlock>* removable);
+
+/// Key blocks as a table, in the order of their factors: those that are removable and that the force moves.
+[[nodiscard]] std::string removable_csv(const BlockReport& report,
+                                        const std::vector<RemovableBlock>& removable);
 
 }  // namespace ashlar

@@ -4,13 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <new>
 #include <optional>
 #include <ostream>
 
 #include "apps/program/blocks/block_files.hpp"
 #include "apps/program/blocks/block_histogram.hpp"
 #include "apps/program/blocks/block_text.hpp"
+#include "apps/program/blocks/mechanism_report.hpp"
 #include "apps/program/number_option.hpp"
 #include "apps/program/plot/plot_script.hpp"
 #include "apps/program/run/override_option.hpp"
@@ -31,6 +34,48 @@ std::optional<Vector3> read_force(const std::string& text) {
   return force.allFinite() && !force.isZero(0.0) ? std::optional(force) : std::nullopt;
 }
 
+/// "x=-8": the plane across an axis at a coordinate of the user.
+std::optional<ScenePlane> read_border(const std::string& text, const Vector3& origin) {
+  const std::size_t axis = text.empty() ? std::string::npos : std::string("xyz").find(text[0]);
+  if (axis == std::string::npos || text.size() < 3 || text[1] != '=') return std::nullopt;
+  const std::vector<double> number = numbers_of<double>(text.substr(2), ',');
+  if (number.size() != 1 || !std::isfinite(number[0])) return std::nullopt;
+  const Vector3 normal = Vector3::Unit(static_cast<Eigen::Index>(axis));
+  return ScenePlane{(number[0] - origin.dot(normal)) * normal, normal};
+}
+
+/// Planes of --border. @return empty after a fault
+std::optional<std::vector<ScenePlane>> read_borders(const std::vector<std::string>& texts,
+                                                    const Vector3& origin, std::ostream& err) {
+  std::vector<ScenePlane> planes;
+  for (const std::string& text : texts) {
+    const std::optional<ScenePlane> plane = read_border(text, origin);
+    if (!plane) {
+      err << fmt::format(
+          "ashlar: error: --border is no plane across an axis ({}), x=, y= or z= and a coordinate are "
+          "needed\n",
+          text);
+      return std::nullopt;
+    }
+    planes.push_back(*plane);
+  }
+  return planes;
+}
+
+/// Of a scene with --removable; empty after a fault that is told.
+std::optional<std::vector<KeyGroup>> mechanisms_of(const BlocksOptions& options, const BlockReport& report,
+                                                   const RemovableSearch& search, std::ostream& err) {
+  if (options.mechanisms == 0) return std::vector<KeyGroup>();
+  try {
+    return find_mechanisms(report.loaded(), search, options.mechanisms, options.threads);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    err << fmt::format("ashlar: error: no mechanisms by limit analysis: {}\n", error.what());
+    return std::nullopt;
+  }
+}
+
 std::filesystem::path folder_of(const BlocksOptions& options) {
   if (options.folder) return *options.folder;
   if (options.scene == "-") return "scene.blocks";
@@ -39,7 +84,8 @@ std::filesystem::path folder_of(const BlocksOptions& options) {
 
 /// @return message to the user
 std::string write_files(const std::filesystem::path& folder, const BlockReport& report,
-                        const std::vector<RemovableBlock>& removable) {
+                        const std::vector<RemovableBlock>& removable,
+                        const std::optional<std::vector<KeyGroup>>& mechanisms) {
   const LoadedScene& loaded = report.loaded();
   std::vector<double> volumes;
   for (std::size_t k = 0; k < report.blocks().size(); ++k)
@@ -51,8 +97,19 @@ std::string write_files(const std::filesystem::path& folder, const BlockReport& 
   write_file_atomically(folder / "blocks.obj", block_obj(loaded), Durability::process);
   write_file_atomically(folder / "blocks.stl", block_stl(loaded), Durability::process);
   write_file_atomically(folder / "blocks.msh", block_msh(loaded), Durability::process);
-  return fmt::format("blocks: {}\nmodel: {} (.stl, .msh)\n{}", (folder / "blocks.vtu").string(),
-                     (folder / "blocks.obj").string(), write_plot(sizes, folder / "sizes.svg", true));
+  std::string tables;
+  if (!removable.empty()) {
+    write_file_atomically(folder / "key_blocks.csv", removable_csv(report, removable), Durability::process);
+    tables += fmt::format("key blocks: {}\n", (folder / "key_blocks.csv").string());
+  }
+  if (mechanisms && !mechanisms->empty()) {
+    write_file_atomically(folder / "mechanisms.csv", mechanisms_csv(report, *mechanisms),
+                          Durability::process);
+    tables += fmt::format("mechanisms: {}\n", (folder / "mechanisms.csv").string());
+  }
+  return tables + fmt::format("blocks: {}\nmodel: {} (.stl, .msh)\n{}", (folder / "blocks.vtu").string(),
+                              (folder / "blocks.obj").string(),
+                              write_plot(sizes, folder / "sizes.svg", true));
 }
 
 /// Replaces a scene by one of its stages. @return false after a fault
@@ -108,14 +165,26 @@ int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream
   }
   const BlockReport report(std::make_shared<const LoadedScene>(*std::move(loaded)));
   std::vector<RemovableBlock> removable;
-  if (force) removable = find_removable_blocks(report, *force);
+  std::optional<std::vector<KeyGroup>> mechanisms;
+  if (force) {
+    const auto borders = read_borders(options.borders, report.loaded().scene.origin, err);
+    if (!borders) return exit_status::bad_input;
+    const RemovableSearch search{*force, options.wanted, *borders};
+    removable = find_removable_blocks(report, search);
+    mechanisms = mechanisms_of(options, report, search, err);
+    if (!mechanisms) return exit_status::failed;
+  }
   const std::vector<RemovableBlock>* looked_at = force ? &removable : nullptr;
-  if (options.json)
-    out << json_text(report_json(report, looked_at)) << '\n';
-  else
+  if (options.json) {
+    auto json = report_json(report, looked_at);
+    if (options.mechanisms > 0 && mechanisms) json["mechanisms"] = mechanisms_json(report, *mechanisms);
+    out << json_text(json) << '\n';
+  } else {
     out << report_text(report, looked_at);
+    if (options.mechanisms > 0 && mechanisms) out << mechanisms_text(report, *mechanisms);
+  }
   if (!claim) return exit_status::done;
-  const std::string written = write_files(claim->folder(), report, removable);
+  const std::string written = write_files(claim->folder(), report, removable, mechanisms);
   (options.json ? err : out) << written;
   return exit_status::done;
 }
@@ -139,6 +208,24 @@ void declare_blocks_command(CLI::App& program, CommandContext& context) {
       ->add_option("--removable", options->force,
                    "Key-block analysis of blocks with a free face, under a force of this direction")
       ->type_name("X,Y,Z");
+  command
+      ->add_option(
+          "--border", options->borders,
+          "A border of the model that is no free face, besides the planes of supports and boundaries "
+          "(repeatable, with --removable)")
+      ->type_name("x=X");
+  command
+      ->add_option(
+          "--mechanisms", options->mechanisms,
+          "With --removable: at most so many mechanisms by limit analysis, blocks and groups with bolts and "
+          "all strengths of joints, each with its own factor")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
+  command
+      ->add_option("--wanted", options->wanted,
+                   "With --removable: factor for which needed forces are told (default: 1)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("F");
   command->add_option("--stage", options->stage, "Blocks that are there in this stage (default: all blocks)")
       ->type_name("NAME");
   declare_overrides(*command, options->overrides);

@@ -17,6 +17,10 @@ struct BlocksOptions {
   bool json = false;
   std::optional<std::string> stage;  ///< name of a [[stage]]; default: all blocks, of any stage
   std::optional<std::string> force;  ///< "x,y,z" of --removable
+  double wanted = 1.0;               ///< factor for which needed forces are told
+  int mechanisms = 0;                ///< by limit analysis, at most; 0: none
+  std::vector<std::string> borders;  ///< "x=-8" each
+  int threads = 1;
 };
 
 /// Declares `ashlar blocks`.
