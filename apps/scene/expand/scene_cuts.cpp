@@ -10,6 +10,7 @@
 #include "apps/scene/expand/scene_cutter.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
 #include "apps/scene/model/block_names.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
 #include "geometry/solid/shape_loss.hpp"
 
 namespace ashlar {
@@ -64,6 +65,16 @@ Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, dou
       fault = error.what();
     }
     const std::size_t cut = last_cut_of(rock, solid, piece);
+    if (const std::size_t parts = closed_components(solid.mesh(piece), 0.0).size(); parts > 1) {
+      diagnostics.error(
+          scene.places.key(fmt::format("cut.{}", cut)),
+          fmt::format("cut leaves a body around a hollow ({:.4g} m^3, \"{}\", its surface has {} parts), which is "
+                      "not supported: a [[cut]] by a plane through the hollow before this one is needed, with "
+                      "glued = true the body stays whole",
+                      solid.volume(piece), names[pieces.size()], parts));
+      pieces.push_back(nullptr);
+      continue;
+    }
     diagnostics.error(
         scene.places.key(fmt::format("cut.{}", cut)),
         fmt::format(

@@ -7,9 +7,15 @@
 
 namespace ashlar {
 
+std::string name_before_cuts(const Scene& scene, std::size_t block) {
+  if (!scene.rock || scene.rock->origin[block].piece < 0) return "";
+  return scene.uncut[scene.rock->origin[block].uncut].name;
+}
+
 bool pattern_names_block(const Scene& scene, const std::string& pattern, std::size_t block) {
   if (pattern_matches(pattern, scene.block[block].name)) return true;
   if (!scene.rock) return false;
+  if (pattern == name_before_cuts(scene, block)) return true;
   const std::vector<std::string>& others = scene.rock->other_names[block];
   return std::any_of(others.begin(), others.end(),
                      [&](const std::string& name) { return pattern_matches(pattern, name); });

@@ -8,7 +8,10 @@
 
 namespace ashlar {
 
-/// True if a glob matches the name of a block or another name of it as a piece.
+/// The name of the block that cuts divided into pieces, of one of them; empty: the block is no piece.
+[[nodiscard]] std::string name_before_cuts(const Scene& scene, std::size_t block);
+
+/// True if a glob matches the name of a block or another name of it as a piece, or is the name of the block before the cuts.
 [[nodiscard]] bool pattern_names_block(const Scene& scene, const std::string& pattern, std::size_t block);
 
 /// The name of the block that a measure means by another name of a piece; any other name is returned unchanged.

@@ -23,11 +23,16 @@ JointTable::JointTable(const Scene& scene)
     const std::string key = joint.inside ? fmt::format("{}\n{}", pattern, index) : pattern;
     const auto [place, is_new] = blocks_of_.emplace(key, std::vector<std::size_t>{});
     if (!is_new) return &place->second;
-    // A name without glob characters matches itself only.
+    // A name without glob characters is that of one block, or of one that was cut.
     if (pattern.find_first_of("*?[\\") == std::string::npos) {
       auto found = by_name.find(pattern);
       if (found == by_name.end()) found = by_name.find(own_name(scene, pattern));
-      if (found != by_name.end()) place->second = found->second;
+      if (found != by_name.end()) {
+        place->second = found->second;
+      } else {
+        for (std::size_t k = 0; k < scene.block.size(); ++k)
+          if (name_before_cuts(scene, k) == pattern) place->second.push_back(k);
+      }
     } else {
       for (std::size_t k = 0; k < scene.block.size(); ++k)
         if (pattern_names_block(scene, pattern, k)) place->second.push_back(k);
