@@ -38,7 +38,7 @@ class ViewTest(PageTest):
                 self.assertGreater(len(set(pixels)), 20)
 
     def test_slider_moves_picture_clock_and_cursor(self):
-        self.open("falling")
+        self.open("falling", "#frame=0")
         self.assertIn("t = 0 s", self.text("clock"))
         before = self.browser.screenshot()
         height = self.on_screen("centreOf(0)")[1]
@@ -74,7 +74,7 @@ class ViewTest(PageTest):
             self.assertGreater(sum(abs(a - b) for a, b in zip(first, second)), 60, field)
 
     def test_the_least_value_has_the_first_colour(self):
-        self.open("falling")
+        self.open("falling", "#frame=0")
         self.change("field", "displacement")
         # At the start block A has not moved and is pale green, #bfe6a8 in its shade: neither unlit stone nor a support.
         red, green, blue = self.colours_of_blocks()[0]
@@ -104,14 +104,14 @@ class ViewTest(PageTest):
                     self.assertEqual((shown["block"], shown["material"], shown["order"]), (block, material, order))
 
     def test_the_centre_of_a_cube_is_its_middle(self):
-        self.open("falling")
+        self.open("falling", "#frame=0")
         self.browser.click(*self.on_screen("centreOf(0)"))
         self.assertEqual([float(x) for x in self.picked()["centre (m)"].split(", ")], [7.25, 0, 2.25])
 
     def test_curved_frames_look_like_divided_ones(self):
         pixels = []
         for name in ("falling", "curved"):
-            self.open(name, "#color=order")
+            self.open(name, "#color=order&frame=0")
             # The scene's size, which sets the view, is that of all frames.
             self.evaluate("Object.assign(current, {at: new THREE.Vector3(4, 0, 0), from: new THREE.Vector3(0, -1, 0)}),"
                           "sceneBox.set(new THREE.Vector3(0, -2, -2), new THREE.Vector3(8, 2, 4)),"

@@ -21,7 +21,7 @@ const ADDRESS_KEYS = [
 function usualState() {
   const few = !isCrowded();
   const fewPoints = mostOf("contacts") <= MOST_USUAL_POINTS;
-  return {frame: data.isStatic ? data.frames.length - 1 : 0, field: "displacement", range: "run", low: null, high: null,
+  return {frame: data.frames.length - 1, field: "displacement", range: "run", low: null, high: null,
     units: "engineering", scale: 1, relative: data.relative_to, parallel: false, edges: true, subFaces: false, seeThrough: false, joints: "none",
     points: fewPoints ? "state" : "none", openContacts: false, arrows: false, chain: few, thrust: false, forceScale: 1,
     loads: true, supports: true, bolts: true, water: true,

@@ -48,7 +48,8 @@ function factorAnswer(summary) {
 function answerText(summary) {
   if (!summary) return "not finished";
   if (factorKey(summary)) return factorAnswer(summary);
-  const words = {completed: "completed at t = " + short(summary.time) + " s", equilibrium: "stands: static equilibrium",
+  const verdict = summary.verdict && summary.message ? ": " + summary.message : "";
+  const words = {completed: "completed at t = " + short(summary.time) + " s" + verdict, equilibrium: "stands: static equilibrium",
     moving: "does not stand: " + (motionText(summary) || "no equilibrium"), "not converged": "no answer: did not converge",
     failed: "failed", interrupted: "interrupted"};
   if (data.isStatic && summary.status === "completed") return summary.message || "completed";

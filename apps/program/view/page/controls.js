@@ -152,7 +152,43 @@ function lookAtView(name) {
   noteAddress();
 }
 
+/// Frame nearest to a value of a member, "time" or "step".
+function frameNearest(member, value) {
+  const distance = (frame) => Math.abs(frame[member] - value);
+  return data.frames.reduce((best, frame, k) => (distance(frame) < distance(data.frames[best]) ? k : best), 0);
+}
+
+/// What a run tells of: [words, index of a frame]. Times of stages start anew, so that only runs without them have falls and
+/// peaks here.
+function eventsOfRun(summary) {
+  if (!summary) return [];
+  const events = [["start", 0]];
+  for (const {step, name} of summary.states || []) events.push([name, frameNearest("step", step)]);
+  for (const {name, steps} of summary.stages || []) events.push(["end of stage " + name, frameNearest("step", steps)]);
+  if (!summary.stages) {
+    for (const {block, time} of ((summary.verdict || {}).fallen || []).slice(0, 20))
+      events.push(["t = " + short(time) + " s: " + block + " falls", frameNearest("time", time)]);
+    for (const [column, {least, largest}] of Object.entries(data.isStatic ? {} : summary.peaks || {}))
+      for (const [which, peak] of [["least", least], ["largest", largest]])
+        if (peak) events.push(["t = " + short(peak.time) + " s: " + which + " " + column, frameNearest("time", peak.time)]);
+  }
+  return [...events, ["end", data.frames.length - 1]];
+}
+
+function tieEvents() {
+  const events = eventsOfRun(data.summary);
+  const select = element("events");
+  select.hidden = events.length < 3;
+  select.replaceChildren(new Option("jump to", ""), ...events.map(([text, frame]) => new Option(text, frame)));
+  select.addEventListener("change", () => {
+    if (select.value !== "") showFrame(Number(select.value));
+    select.value = "";
+    noteAddress();
+  });
+}
+
 function tieStage() {
+  tieEvents();
   element("slider").max = data.frames.length - 1;
   element("slider").addEventListener("input", (event) => showFrame(Number(event.target.value)));
   element("play").addEventListener("click", play);

@@ -179,6 +179,7 @@ async function loadData() {
   for (const {block, corners} of data.cells) for (const point of corners) data.blockOfPoint[point] = block;
   data.spans = spansOf(data.blockOfPoint);
   data.history = decodeHistory(scene.history, history);
+  addRunTime(data.history);
   data.blocks = blocksOf(data.cells, scene.blocks, scene.fixed);
   data.isStatic = ["static", "factor-of-safety", "capacity", "thrust"].includes(scene.analysis);
   const lines = element("frames").textContent.trim().split("\n");

@@ -4,7 +4,7 @@
 const CURVE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f", "#7f3c8d",
   "#8a8a00", "#a02c2c", "#5c5c5c"];
 
-const COLUMN_UNITS = [[/^time$|^dt$/, "s"], [/^energy\./, "J"], [/^momentum\./, "N s"], [/^angular_momentum\./, "N m s"],
+const COLUMN_UNITS = [[/^time( of the run)?$|^dt$/, "s"], [/^energy\./, "J"], [/^momentum\./, "N s"], [/^angular_momentum\./, "N m s"],
   [/\.(u?[xyz]|opening|slip)$|^penetration\./, "m"], [/\.v[xyz]$/, "m/s"], [/\.s(xx|yy|zz|xy|yz|xz)$/, "Pa"],
   [/\.r[xyz]$/, "degrees"], [/_force$/, "N"], [/\.area$/, "m²"]];
 
@@ -53,8 +53,25 @@ function rowOfFrame(frame) {
   return nearest;
 }
 
-/// The column that curves are drawn against unless the user chooses another one: a static analysis has no time.
-const usualColumn = () => (data.isStatic && data.history.columns.includes("step") ? "step" : "time");
+/// The time since the start of a run in stages, whose `time` starts anew in each: a column that the page adds.
+const RUN_TIME = "time of the run";
+function addRunTime({columns, values}) {
+  if (!columns.includes("stage") || !columns.includes("time")) return;
+  let before = 0;
+  values[RUN_TIME] = values.time.map((time, row) => {
+    if (row > 0 && values.stage[row] !== values.stage[row - 1]) before += values.time[row - 1];
+    return before + time;
+  });
+  columns.splice(columns.indexOf("time") + 1, 0, RUN_TIME);
+}
+
+/// The column that curves are drawn against unless the user chooses another one: static analyses have no time.
+function usualColumn() {
+  const {columns} = data.history;
+  const allStatic = data.stages && data.stages.length > 0 ? data.stages.every(({analysis}) => analysis !== "dynamic") : data.isStatic;
+  if (allStatic && columns.includes("step")) return "step";
+  return columns.includes(RUN_TIME) ? RUN_TIME : "time";
+}
 const columnLabel = (name) => (name === "step" && data.isStatic ? "iteration" : name);
 
 function labelWithUnit(name, unit) {

@@ -17,6 +17,9 @@ const pointText = (v) => data.origin.every((y) => y === 0) ? vectorText(v)
 const placedText = ({value, block, place}, unit) => withoutNoise(value, unit) === 0 ? "none" :
   quantity(withoutNoise(value, unit), unit) + " in " + block + " at (" + place.map(coordinateText).join(", ") + ") m";
 
+/// Peaks that are shown: displacements, forces, openings and drifts of measures.
+const PEAK_COLUMN = /\.(u[xyz]|[a-z_]*force|opening|slip|drift|largest_opening)$/;
+
 function namesText(names, most = 5) {
   const shown = names.slice(0, most).join(", ");
   return names.length > most ? shown + " and " + (names.length - most) + " more" : shown;
@@ -40,18 +43,23 @@ function answerRows(summary) {
   for (const [key, name, unit] of [["largest_displacement", "largest displacement" + absolute, "m"],
     ["largest_compression", "largest compression", "Pa"], ["largest_tension", "largest tension", "Pa"],
     ["largest_strain", "largest strain", ""]])
-    if (key in summary) add(name, summary[key] ? placedText(summary[key], unit) : "none");
+    if (summary[key]) add(name, placedText(summary[key], unit));
   const broken = summary.broken;
   if (broken && broken.of_area > 0)
     add("broken joints", broken.pairs === 0 ? "none" : short(broken.area) + " of " + short(broken.of_area)
       + " m² with strength, between " + broken.pairs + " pairs of blocks");
+  for (const [column, {least, largest}] of Object.entries(summary.peaks || {})) {
+    const unit = unitOfColumn(column);
+    const text = (peak) => (peak ? quantity(peak.value, unit) + " at " + short(peak.time) + " s" : "none");
+    if (!data.isStatic && PEAK_COLUMN.test(column)) add("peaks of " + column, text(least) + " to " + text(largest));
+  }
   const deepest = summary.deepest;
   if (deepest) add("deepest penetration", quantity(withoutNoise(deepest.value, "m"), "m") + ", " + deepest.blocks.join(" in "));
   return rows;
 }
 
 const ANSWERED = ["scene", "title", "status", "message", "moving", "displaced", "largest_displacement", "largest_compression",
-  "largest_tension", "largest_strain", "broken", "deepest", "factor_of_safety", "load_factor"];
+  "largest_tension", "largest_strain", "broken", "deepest", "factor_of_safety", "load_factor", "states", "verdict", "peaks"];
 
 const percentText = (share) => short(100 * share) + " %";
 
