@@ -13,8 +13,8 @@ cmake --preset release
 cmake --build --preset release --target ashlar ashlar_python -j"$(bash apps/build_jobs.sh)"
 
 program=$root/build/release/apps/ashlar
-scene=data/scenes/falling_block.toml
-results=falling_block.out
+scene=data/scenes/tunnel_roof.toml
+results=tunnel_roof.out
 "$program" run "$scene" --out "$results" --view --force
 
 # A link in the user's own folder of programs, unless something else has its name.
@@ -30,11 +30,11 @@ fi
 
 cat <<END
 
-Done. A block fell on a cantilever; the results are in $root/$results:
+Done. A tunnel was excavated, and the wedge of its roof fell; the results are in $root/$results:
   view.html                  open this file in any browser
   blocks.pvd, contacts.pvd   the moving blocks and their contacts, for ParaView
   history.csv                positions, energies and contacts, a row for each step
-  summary.json               steps, times, energy error
+  summary.json               who fell and when, times, energy error
 $path
 For Python:
   export PYTHONPATH="$root/build/release/apps/python"

@@ -354,8 +354,10 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
   json["kept_by_others"] = names_in_json(findings.answer.kept_by_others, simulation);
   json["least_strength"] = least_strength_json(findings.crushing, simulation);
   json["associated_bracket"] = {number(associated.lower), number(associated.upper)};
-  json["associated_motion"] = Json::object();
-  add_motion(json["associated_motion"], findings.associated, simulation);
+  // The limit of the path is mostly the associated one: its motion is not told twice.
+  const bool same = path.lower == associated.lower && path.upper == associated.upper;
+  json["associated_motion"] = same ? Json(nullptr) : Json::object();
+  if (!same) add_motion(json["associated_motion"], findings.associated, simulation);
   json["trials"] = Json::array();
   for (const LimitTrial& trial : findings.answer.trials)
     json["trials"].push_back({{"factor", trial.factors.strength * trial.factors.load},

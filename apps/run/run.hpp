@@ -19,8 +19,8 @@
 
 #include "apps/results/folder/accuracy_state.hpp"
 #include "apps/results/folder/contact_changes.hpp"
-#include "apps/results/folder/motion_verdict.hpp"
 #include "apps/results/folder/folder_claim.hpp"
+#include "apps/results/folder/motion_verdict.hpp"
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_clock.hpp"
 #include "apps/results/folder/run_outcome.hpp"
@@ -161,6 +161,8 @@ class Run {
   [[nodiscard]] const AccuracyState* accuracy() const {
     return chosen_ && whole().analysis.accuracy ? &accuracy_ : nullptr;
   }
+  /// Blocks that have fallen so far in motion in time.
+  [[nodiscard]] const FallRecord& falls() const { return motion_; }
   /// summary.json, with the answer of a search; status interrupted if the run has not ended.
   [[nodiscard]] std::string summary() const;
   /// The same of a record. @param frames written so far
@@ -234,7 +236,7 @@ class Run {
   std::vector<GoalError> measure_errors_;
   std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
   ResultNeeds row_needs_;            ///< of a row, on processes that share the run
-  FallRecord motion_;              ///< of steps in time
+  FallRecord motion_;                ///< of steps in time
   ContactChanges changes_;           ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;

@@ -183,6 +183,17 @@ void warn_of_strength(const Run& run, std::ostream& err) {
 }
 
 /// Prints how a run ended; nothing for a completed one. @param quiet only errors and interrupts
+/// Says what becomes of impacts where blocks fell and the scene does not.
+void tell_rebound(const Run& run, std::ostream& err) {
+  if (run.falls().falls.empty() || run.whole().contact.law.restitution) return;
+  for (const SceneJoint& joint : run.whole().joint)
+    if (joint.restitution) return;
+  const bool augmented = run.simulation().system().settings().augmented;
+  err << fmt::format("rebound: contact.restitution is not set: {}\n",
+                     augmented ? "multipliers stop what strikes"
+                               : "springs give back what an impact stores, as far as steps resolve it");
+}
+
 void tell_end(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   const std::string& message = run.message();
   if (!run.unsaved().empty()) {
@@ -232,6 +243,7 @@ void tell_results(const Run& run, const std::filesystem::path& folder, bool quie
   if (!run.answer().shows_states()) {
     const LargestValues largest = run.largest();
     if (!quiet) tell_answers(simulation, largest, err);
+    if (!quiet) tell_rebound(run, err);
     warn_of_strain(simulation, largest, err);
     warn_of_chords(simulation, err);
   }

@@ -75,3 +75,10 @@ def test_it_installs_and_runs(wheel, python, tmp_path):
                cwd=tmp_path, env=clean).split()
     assert pathlib.Path(said[0]).is_relative_to(python.parents[1])
     assert float(said[1]) == 1 / 6
+
+
+def test_a_python_without_numpy_is_named():
+    code = "import sys; sys.modules['numpy'] = None; import ashlar"
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert told.returncode == 1
+    assert f"needs numpy, which this Python has not ({sys.executable})" in told.stderr

@@ -14,9 +14,14 @@ import collections as _collections
 import json as _json
 import os as _os
 import pathlib as _pathlib
+import sys as _sys
 import tempfile as _tempfile
 
-import numpy as _numpy
+try:
+    import numpy as _numpy
+except ModuleNotFoundError as _fault:
+    raise ImportError(f"ashlar needs numpy, which this Python has not ({_sys.executable}): the one of Debian, /usr/bin/python3, "
+                      "has it with the package python3-numpy") from _fault
 
 from . import _core
 from . import _notebook
