@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "apps/results/folder/verdict_json.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/run/answer_summary.hpp"
 #include "apps/run/run.hpp"
@@ -14,7 +15,8 @@ FolderRecorder::FolderRecorder(std::shared_ptr<const FolderClaim> claim,
 
 void FolderRecorder::run_begins(const Run& run) {
   if (earlier_)
-    files_.emplace(claim_->folder(), run.whole(), run.simulation(), *earlier_);
+    files_.emplace(claim_->folder(), run.whole(), run.simulation(), *earlier_,
+                   run.answer().shows_states());
   else
     files_.emplace(claim_->folder(), run.whole(), run.simulation(), run.place());
   earlier_.reset();
@@ -57,7 +59,8 @@ ResultFolderState FolderRecorder::synced_state() {
 
 void FolderRecorder::add_peaks(nlohmann::ordered_json& summary) const {
   if (!files_) return;
-  if (nlohmann::ordered_json peaks = files_->peaks(); !peaks.empty()) summary["peaks"] = std::move(peaks);
+  if (const std::vector<MeasurePeak> peaks = files_->peaks(); !peaks.empty())
+    summary["peaks"] = peaks_json(peaks);
 }
 
 void FolderRecorder::write_summary(const Run& run) const {

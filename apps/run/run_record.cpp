@@ -8,6 +8,7 @@
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/folder/run_summary.hpp"
+#include "apps/results/folder/verdict_json.hpp"
 #include "apps/results/tables/contact_state.hpp"
 #include "apps/results/tables/measure_goals.hpp"
 #include "apps/results/text/atomic_file.hpp"

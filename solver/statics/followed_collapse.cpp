@@ -80,7 +80,7 @@ class CollapsePath {
     return std::nullopt;
   }
 
-  /// Accelerations of a thousandth of the load move blocks by a step.
+  /// Accelerations of 1e-4 of their unit move blocks by a step.
   [[nodiscard]] double longest_scale() const { return 1e4 * length_; }
 
   void note_displacements() {

@@ -96,19 +96,4 @@ std::string describe(const MotionVerdict& verdict, const Simulation& simulation)
   return text;
 }
 
-nlohmann::ordered_json verdict_json(const MotionVerdict& verdict, const Simulation& simulation) {
-  using Json = nlohmann::ordered_json;
-  const auto name = [&](int block) { return Json(simulation.blocks()[at(block)].name()); };
-  Json json = {{"state", verdict.at_rest() ? "at rest" : "moving"},
-               {"moving", verdict.moving},
-               {"fastest", verdict.fastest >= 0 ? name(verdict.fastest) : Json(nullptr)},
-               {"speed", verdict.speed},
-               {"displaced", verdict.displaced},
-               {"fallen", Json::array()}};
-  for (const MotionVerdict::Fallen& of : verdict.fallen)
-    json["fallen"].push_back(
-        {{"block", name(of.block)}, {"time", of.time}, {"drop", of.drop}, {"distance", of.distance}});
-  return json;
-}
-
 }  // namespace ashlar

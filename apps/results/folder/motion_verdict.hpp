@@ -1,7 +1,6 @@
 // What a run in time shows: blocks that have fallen, blocks out of their places, and whether all are at rest at its end.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -47,8 +46,5 @@ struct MotionVerdict {
 /// "at rest; 2 of 40 blocks have fallen: roof.1 at 0.42 s by 3.1 m, roof.2 at 0.6 s by 2.9 m", "3 of 8 blocks move, block
 /// top fastest: 1.2 m/s"
 [[nodiscard]] std::string describe(const MotionVerdict& verdict, const Simulation& simulation);
-
-/// state ("at rest", "moving"), moving, fastest, speed, displaced, fallen (block, time, drop, distance)
-[[nodiscard]] nlohmann::ordered_json verdict_json(const MotionVerdict& verdict, const Simulation& simulation);
 
 }  // namespace ashlar

@@ -98,7 +98,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
 }
 
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
-                           const ResultFolderState& state)
+                           const ResultFolderState& state, bool shows_state)
     : folder_(std::move(folder)),
       output_(scene.output),
       model_origin_(scene.origin),
@@ -120,7 +120,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                                          state.contact_bytes));
   }
   contact_rows_.truncate(state.contact_bytes);
-  add_step(simulation);
+  shows_state && simulation.steps() > 0 ? add_state(simulation) : add_step(simulation);
 }
 
 ResultFolderState ResultFolder::synced_state() {
@@ -175,23 +175,15 @@ bool ResultFolder::frame_is_due(const Simulation& simulation) const {
   return simulation.time() + 0.5 * simulation.report().step >= due;
 }
 
-nlohmann::ordered_json ResultFolder::peaks() const {
-  const auto value = [](double number, double time) {
-    return std::isnan(number) ? nlohmann::ordered_json(nullptr)
-                              : nlohmann::ordered_json{{"value", number}, {"time", time}};
-  };
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+std::vector<MeasurePeak> ResultFolder::peaks() const {
+  std::vector<MeasurePeak> peaks;
   const std::vector<std::string> columns = history_columns(measures_, progress_.stage > 0);
-  for (std::size_t k = 1; k < columns.size() && k <= progress_.peaks.size(); ++k) {
-    const bool measured = std::any_of(measures_.begin(), measures_.end(), [&](const Measure& measure) {
-      return columns[k].starts_with(measure.name + ".");
-    });
-    if (!measured) continue;
-    const ColumnPeak& peak = progress_.peaks[k - 1];
-    json[columns[k]] = {{"least", value(peak.least, peak.least_time)},
-                        {"largest", value(peak.largest, peak.largest_time)}};
-  }
-  return json;
+  // The first column, the step, is no value of a row.
+  for (std::size_t k = 1; k < columns.size() && k <= progress_.peaks.size(); ++k)
+    if (std::any_of(measures_.begin(), measures_.end(),
+                    [&](const Measure& measure) { return columns[k].starts_with(measure.name + "."); }))
+      peaks.push_back({columns[k], progress_.peaks[k - 1]});
+  return peaks;
 }
 
 void ResultFolder::add_row(const Simulation& simulation) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +45,11 @@ struct ColumnPeak {
   double largest_time = 0.0;
 };
 
+struct MeasurePeak {
+  std::string column;
+  ColumnPeak peak;
+};
+
 /// Progress of the files.
 struct ResultProgress {
   int last_row_step = -1;  ///< in history.csv
@@ -75,9 +79,9 @@ class ResultFolder {
 
   /// Continues in the folder of an earlier run: removes data written after `state`, and writes data of its step that
   /// could not be written then.
-  /// @param simulation at that time
+  /// @param simulation at that time. @param shows_state true: its step is that of add_state()
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
-               const ResultFolderState& state);
+               const ResultFolderState& state, bool shows_state = false);
 
   /// Files that add_step() adds to.
   enum class Due { nothing, row, frame };
@@ -105,8 +109,8 @@ class ResultFolder {
   [[nodiscard]] ResultFolderState synced_state();
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
-  /// Extremes of the columns of measures: by column, least and largest, each value and time; null: none.
-  [[nodiscard]] nlohmann::ordered_json peaks() const;
+  /// Extremes of the columns of measures.
+  [[nodiscard]] std::vector<MeasurePeak> peaks() const;
   [[nodiscard]] int frames() const { return static_cast<int>(frames_->frames().size()); }
 
  private:

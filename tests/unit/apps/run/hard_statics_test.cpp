@@ -1,7 +1,9 @@
 // Static analyses that needed many iterations: blocks that start to move slowly, and friction that alternates.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 
 #include "unit/apps/run_fixture.hpp"
@@ -32,6 +34,31 @@ masonry = [{ name = "wall", kind = "wall", material = "stone", order = 0, length
   const nlohmann::json moving = summary_of("parameters = { alpha = 0.2002 }" + wall);
   EXPECT_EQ(moving.at("status"), "moving");
   EXPECT_LE(moving.at("steps"), 16);
+}
+
+// Solid walls of random sizes turn over at a share t / h of their weight, wherever their joints are.
+TEST_F(HardStatics, RandomWallsTurnOverAtTheirLimit) {
+  std::mt19937 random(7);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+  };
+  for (int n = 0; n < 8; ++n) {
+    const int courses = 2 + n % 4, bricks = 2 + n % 3;
+    const double t = between(0.15, 1.0), brick = between(0.5, 2.0), course = t * between(0.8, 1.5);
+    const auto wall = [&](double share) {
+      return fmt::format(R"(
+analysis = {{ type = "static", gravity = [0, {}, -9.81] }}
+contact = {{ friction_angle = 60 }}
+material = [{{ name = "stone", density = 2100, young_modulus = 2e10, poisson_ratio = 0.2 }}]
+block = [{{ name = "base", fixed = true, box = {{ min = [-1, -3, -0.5], max = [20, 4, 0] }} }}]
+masonry = [{{ name = "wall", kind = "wall", material = "stone", order = 0, length = {}, height = {}, thickness = {}, brick = [{}, {}, {}] }}]
+)",
+                         9.81 * share * t / (courses * course), bricks * brick, courses * course, t, brick, t,
+                         course);
+    };
+    EXPECT_EQ(summary_of(wall(0.985)).at("status"), "equilibrium") << wall(0.985);
+    EXPECT_EQ(summary_of(wall(1.015)).at("status"), "moving") << wall(1.015);
+  }
 }
 
 // Excavation in stressed ground, joints of given stiffness: friction of two blocks alternates, by 3e-8 of their size.
