@@ -3,9 +3,11 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "geometry/triangle_mesh.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar::shown_states_test {
