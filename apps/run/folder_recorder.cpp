@@ -15,8 +15,7 @@ FolderRecorder::FolderRecorder(std::shared_ptr<const FolderClaim> claim,
 
 void FolderRecorder::run_begins(const Run& run) {
   if (earlier_)
-    files_.emplace(claim_->folder(), run.whole(), run.simulation(), *earlier_,
-                   run.answer().shows_states());
+    files_.emplace(claim_->folder(), run.whole(), run.simulation(), *earlier_, run.answer().shows_states());
   else
     files_.emplace(claim_->folder(), run.whole(), run.simulation(), run.place());
   earlier_.reset();

@@ -287,23 +287,6 @@ void Run::take_iteration() {
   }
 }
 
-/// Shows the next state that the answer speaks of, as a step.
-void Run::show_state() {
-  Simulation& simulation = built_.simulation;
-  const auto next = static_cast<std::size_t>(simulation.steps());
-  if (next < answer_.states.size()) {
-    show(answer_.states[next], scene().analysis.end_time, simulation);
-    if (!accept_step() || next + 1 < answer_.states.size()) return;
-  }
-  AnsweredEnd end = shown_end(answer_, scene().analysis, simulation);
-  end_stage(end.status, std::move(end.message));
-}
-
-/// True if the present stage is a motion in time of blocks that this process knows all of.
-bool Run::tells_motion() const {
-  return scene().analysis.type == SceneAnalysis::Type::dynamic && !shared();
-}
-
 /// @return false if its results could not be written
 bool Run::accept_step() {
   if (tells_motion()) motion_.note(simulation());

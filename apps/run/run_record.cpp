@@ -99,6 +99,23 @@ bool Run::told_on_all(bool told) {
   return false;
 }
 
+/// Shows the next state that the answer speaks of, as a step.
+void Run::show_state() {
+  Simulation& simulation = built_.simulation;
+  const auto next = static_cast<std::size_t>(simulation.steps());
+  if (next < answer_.states.size()) {
+    show(answer_.states[next], scene().analysis.end_time, simulation);
+    if (!accept_step() || next + 1 < answer_.states.size()) return;
+  }
+  AnsweredEnd end = shown_end(answer_, scene().analysis, simulation);
+  end_stage(end.status, std::move(end.message));
+}
+
+/// True if the present stage is a motion in time of blocks that this process knows all of.
+bool Run::tells_motion() const {
+  return scene().analysis.type == SceneAnalysis::Type::dynamic && !shared();
+}
+
 ResultFolder::Due Run::due() const {
   if (recorder_) return recorder_->due(*this);
   return manner_.keeps_history ? ResultFolder::Due::row : ResultFolder::Due::nothing;
