@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-/// What limit analysis lacks of the first bolt that it lacks anything of: "bolt b has no shear_strength". Empty: nothing
+/// The first bolt that lacks a property for limit analysis, and the property: "b has no shear_strength". Empty: none
 std::string lacking_bolt(const Simulation& simulation) {
   for (const Bolt& bolt : simulation.system().bolts()) {
     const BoltLaw& law = bolt.chain.law();

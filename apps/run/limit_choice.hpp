@@ -1,4 +1,4 @@
-// Whether a search uses limit analysis, with which rigid model, and what it refuses.
+// Choice of limit analysis for a search: its rigid model, the reason, and scenes that it refuses.
 #pragma once
 
 #include <optional>

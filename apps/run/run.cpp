@@ -250,9 +250,7 @@ void Run::take_step() {
     if (whole().analysis.automatic_step) note_step(simulation, accuracy_.motion);
     if (!accept_step()) return;
   }
-  if (simulation.reached(end_time))
-    end_stage(RunStatus::completed,
-              tells_motion() ? describe(verdict_of(simulation, motion_), simulation) : std::string());
+  if (simulation.reached(end_time)) end_stage(RunStatus::completed, "");
 }
 
 void Run::take_iteration() {
@@ -289,7 +287,7 @@ void Run::take_iteration() {
 
 /// @return false if its results could not be written
 bool Run::accept_step() {
-  if (tells_motion()) motion_.note(simulation());
+  if (moves_in_time()) falls_.note(simulation());
   if (shared()) gather_due();
   return record_step();
 }
@@ -303,6 +301,7 @@ bool Run::record_step() {
 void Run::end_stage(RunStatus status, std::string message) {
   stage_status_ = status;
   message_ = std::move(message);
+  if (moves_in_time()) judge_motion();
   if (shared()) built_.simulation.gather_results({}, own_contact_counts(simulation()));
   if (!tell(&RunObserver::stage_stops)) return;
   if (status == RunStatus::completed && !answer_.shows_states()) {

@@ -161,8 +161,8 @@ class Run {
   [[nodiscard]] const AccuracyState* accuracy() const {
     return chosen_ && whole().analysis.accuracy ? &accuracy_ : nullptr;
   }
-  /// Blocks that have fallen so far in motion in time.
-  [[nodiscard]] const FallRecord& falls() const { return motion_; }
+  /// Of the last stage in time that has ended; empty: none has.
+  [[nodiscard]] const std::optional<MotionVerdict>& verdict() const { return verdict_; }
   /// summary.json, with the answer of a search; status interrupted if the run has not ended.
   [[nodiscard]] std::string summary() const;
   /// The same of a record. @param frames written so far
@@ -203,7 +203,9 @@ class Run {
   bool record_step();
   void end_stage(RunStatus status, std::string message);
   void end(RunStatus status);
-  [[nodiscard]] bool tells_motion() const;
+  [[nodiscard]] bool moves_in_time() const;
+  [[nodiscard]] FallRecord falls_of_run() const;
+  void judge_motion();
   void fail_in_step(const std::exception& error);
   void fail_to_write(const std::exception& error);
   void interrupt();
@@ -234,10 +236,11 @@ class Run {
   RunStatus stage_status_ = RunStatus::completed;
   std::vector<std::vector<double>> rows_;
   std::vector<GoalError> measure_errors_;
-  std::vector<RankWork> rank_work_;  ///< of processes that share the run, at its end
-  ResultNeeds row_needs_;            ///< of a row, on processes that share the run
-  FallRecord motion_;                ///< of steps in time
-  ContactChanges changes_;           ///< of static iterations of the present stage
+  std::vector<RankWork> rank_work_;       ///< of processes that share the run, at its end
+  ResultNeeds row_needs_;                 ///< of a row, on processes that share the run
+  FallRecord falls_;                      ///< in steps in time, of the blocks of this process
+  std::optional<MotionVerdict> verdict_;  ///< at the end of a stage in time
+  ContactChanges changes_;                ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;
   std::string unsaved_;

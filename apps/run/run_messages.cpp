@@ -185,7 +185,7 @@ void warn_of_strength(const Run& run, std::ostream& err) {
 /// Prints how a run ended; nothing for a completed one. @param quiet only errors and interrupts
 /// Says what becomes of impacts where blocks fell and the scene does not.
 void tell_rebound(const Run& run, std::ostream& err) {
-  if (run.falls().falls.empty() || run.whole().contact.law.restitution) return;
+  if (!run.verdict() || run.verdict()->fallen.empty() || run.whole().contact.law.restitution) return;
   for (const SceneJoint& joint : run.whole().joint)
     if (joint.restitution) return;
   const bool augmented = run.simulation().system().settings().augmented;

@@ -111,9 +111,22 @@ void Run::show_state() {
   end_stage(end.status, std::move(end.message));
 }
 
-/// True if the present stage is a motion in time of blocks that this process knows all of.
-bool Run::tells_motion() const {
-  return scene().analysis.type == SceneAnalysis::Type::dynamic && !shared();
+/// True if the present stage is a motion in time.
+bool Run::moves_in_time() const {
+  return scene().analysis.type == SceneAnalysis::Type::dynamic;
+}
+
+/// Of all ranks; collective.
+FallRecord Run::falls_of_run() const {
+  return shared() ? merged(values_of_ranks(manner_.ranks->ranks, falls_)) : falls_;
+}
+
+/// Sets the verdict, which is the message of a stage that has none. Collective.
+void Run::judge_motion() {
+  falls_ = falls_of_run();
+  verdict_ = verdict_of(simulation(), falls_);
+  if (shared()) verdict_ = merged(values_of_ranks(manner_.ranks->ranks, *verdict_));
+  if (message_.empty()) message_ = describe(*verdict_, simulation());
 }
 
 ResultFolder::Due Run::due() const {
@@ -186,7 +199,7 @@ void Run::resume(RunCheckpoint checkpoint) {
         analysis.end_time, simulation().time()));
   finished_ = checkpoint.stages;
   changes_ = checkpoint.changes;
-  motion_ = checkpoint.motion;
+  falls_ = checkpoint.falls;
   place_ = {static_cast<int>(finished_.size()) + 1, checkpoint.folder.progress.elapsed,
             checkpoint.folder.progress.origin};
   clock_.add_earlier(checkpoint.seconds);
@@ -198,7 +211,7 @@ bool Run::saved() const {
 }
 
 RunCheckpoint Run::checkpoint() const {
-  return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_, accuracy_, motion_};
+  return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_, accuracy_, falls_of_run()};
 }
 
 RunCheckpoint Run::checkpoint_without_pairs() const {
@@ -208,7 +221,7 @@ RunCheckpoint Run::checkpoint_without_pairs() const {
           clock_.seconds(),
           changes_,
           accuracy_,
-          motion_};
+          falls_of_run()};
 }
 
 LargestValues Run::largest() const {
@@ -245,7 +258,7 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
     summary["error"] = error_summary(simulation(), errors);
   if (!measure_errors_.empty()) add_measure_errors(scene(), measure_errors_, summary["error"]);
   add_answer(summary, answer_, whole().analysis, simulation());
-  if (tells_motion()) summary["verdict"] = verdict_json(verdict_of(simulation(), motion_), simulation());
+  if (verdict_) summary["verdict"] = verdict_json(*verdict_, simulation());
   if (recorder_) recorder_->add_peaks(summary);
   add_origin(summary, whole().origin);
   return json_text(summary, 2) + "\n";

@@ -174,6 +174,11 @@ StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double en
   return verdict_of_path(system, placed, end_time, state);
 }
 
+bool has_accelerations(const StaticState& statics) {
+  return std::any_of(statics.onset.unbalanced.begin(), statics.onset.unbalanced.end(),
+                     [](const Eigen::MatrixX3d& acceleration) { return !acceleration.isZero(0.0); });
+}
+
 StaticStatus rigid_collapse(const BlockSystem& system, RunState& state, double end_time) {
   constexpr double stronger = 1.0 / 1.001;
   if (!has_fixed_supports(system) || state.statics.level_start.empty() ||
@@ -192,10 +197,7 @@ StaticStatus rigid_collapse(const BlockSystem& system, RunState& state, double e
   if (collapse.end != CollapseEnd::goes_far) return StaticStatus::balancing;
   // Accelerations at the onset are those of the iterations, with the compliance that they have, if blocks moved there.
   StaticState& statics = state.statics;
-  const bool known =
-      std::any_of(statics.onset.unbalanced.begin(), statics.onset.unbalanced.end(),
-                  [](const Eigen::MatrixX3d& acceleration) { return !acceleration.isZero(0.0); });
-  if (!known) note_motion(system, state, analysis.motion_of(trial));
+  if (!has_accelerations(statics)) note_motion(system, state, analysis.motion_of(trial));
   statics.moving = true;
   statics.progress.displacements = collapse.displacements;
   return StaticStatus::moving;

@@ -8,6 +8,7 @@
 #include "solver/archived_geometry.hpp"
 #include "solver/statics/motion_doubt.hpp"
 #include "solver/statics/rigid_verdict.hpp"
+#include "solver/step/agreement.hpp"
 
 namespace ashlar {
 namespace {
@@ -59,7 +60,9 @@ WholeRun whole_run(const RunContext& run, const std::vector<TieOfRank>& ties) {
 
 ToldVerdict answer_of(WholeRun& whole, double end_time, StaticStatus status) {
   ToldVerdict told;
-  told.status = rigid_verdict(whole.system, whole.state, end_time, status);
+  told.status = status == StaticStatus::balancing
+                    ? rigid_collapse(whole.system, whole.state, end_time)
+                    : rigid_verdict(whole.system, whole.state, end_time, status);
   if (told.status == status) return told;
   if (told.status == StaticStatus::moving) {
     told.displacements = whole.state.statics.progress.displacements;
@@ -71,10 +74,12 @@ ToldVerdict answer_of(WholeRun& whole, double end_time, StaticStatus status) {
   return told;
 }
 
-void take_motion(const ToldVerdict& told, StaticState& statics) {
+/// @param keeps_accelerations true: those that the iterations have recorded stay
+void take_motion(const ToldVerdict& told, bool keeps_accelerations, StaticState& statics) {
   statics.moving = true;
   statics.balanced = false;
   statics.progress.displacements = told.displacements;
+  if (keeps_accelerations) return;
   statics.onset.unbalanced = told.unbalanced;
   statics.onset.rigid = true;
 }
@@ -131,13 +136,15 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
           take(block, std::move(position), std::move(start));
         }
       });
+  const bool keeps_accelerations =
+      status == StaticStatus::balancing && any_of_run(system, has_accelerations(run.state.statics));
   const ToldVerdict told = value_of_first(ranks, [&] {
     if (starts.empty()) whole->state.statics.level_start.clear();
     return answer_of(*whole, end_time, status);
   });
   if (told.status == status) return status;
   if (told.status == StaticStatus::moving)
-    take_motion(told, run.state.statics);
+    take_motion(told, keeps_accelerations, run.state.statics);
   else if (told.status == StaticStatus::equilibrium)
     take_equilibrium(system, told, end_time, run.state);
   else
@@ -150,9 +157,9 @@ StaticStatus judged(const RunContext& run, double end_time, StaticStatus status)
   constexpr int asked_after = 16;
   const bool several = run.shared != nullptr && !run.system.share()->ranks().alone();
   if (status == StaticStatus::balancing)
-    return run.state.statics.iterations == asked_after && !several
-               ? rigid_collapse(run.system, run.state, end_time)
-               : status;
+    return run.state.statics.iterations != asked_after ? status
+           : several                                   ? shared_verdict(run, end_time, status)
+                                                       : rigid_collapse(run.system, run.state, end_time);
   if (status == StaticStatus::moving && doubt_of_motion(run.system, run.state) == MotionDoubt::none)
     return status;
   const StaticStatus verdict = several ? shared_verdict(run, end_time, status)

@@ -10,7 +10,8 @@
 
 namespace ashlar {
 
-/// As rigid_verdict(), for the blocks of this rank. Collective. @param run with ranks
+/// As rigid_verdict(), or of an analysis that goes on as rigid_collapse(), for the blocks of this rank. Collective.
+/// @param run with ranks
 /// @return the same on all ranks
 [[nodiscard]] StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus status);
 

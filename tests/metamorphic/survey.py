@@ -39,7 +39,6 @@ FAMILIES = [re.compile(pattern) for pattern in (
 # Rounding decides the state of a point at a limit.
 STATES = re.compile(r"contacts\.(open|locked|sliding)$|open_close\.iterations$")
 # Energy against gravity and angular momentum are about the origin of the model.
-MESSAGE_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.]*[A-Za-z])")
 ABOUT_ORIGIN = re.compile(r"energy\.gravity|angular_momentum\.[xyz]|energy\.(residual|numerical|refound_.*)$")
 
 
@@ -152,20 +151,26 @@ def run(program, folder, name, scene, sets):
     return json.loads((out / "summary.json").read_text()), rows
 
 
-def same_message(one, two):
-    """Words are the same, numbers to the last of their three digits, which rounding may change."""
-    if one is None or two is None:
-        return one == two
-    numbers = [[float(text) for text in MESSAGE_NUMBER.findall(message)] for message in (one, two)]
-    return MESSAGE_NUMBER.sub("", one) == MESSAGE_NUMBER.sub("", two) and all(
-        abs(x - y) <= 0.011 * abs(x) for x, y in zip(*numbers))
+def differences_of_verdicts(was, now, size, shares):
+    """Of motion: the same blocks, numbers as near as those of the rows."""
+    found = [f"verdict.{key}: {was[key]} and {now[key]}" for key in ("state", "moving", "fastest", "displaced") if was[key] != now[key]]
+    if [fall["block"] for fall in was["fallen"]] != [fall["block"] for fall in now["fallen"]]:
+        return found + ["verdict.fallen"]
+    pairs = [(was["speed"], now["speed"], shares[1] * abs(was["speed"]))]
+    for one, two in zip(was["fallen"], now["fallen"]):
+        pairs.append((one["time"], two["time"], shares[1] * one["time"]))
+        pairs += [(one[key], two[key], shares[0] * size) for key in ("drop", "distance")]
+    return found + [f"verdict: {x} and {y}" for x, y, allowed in pairs if not abs(x - y) <= allowed]
 
 
 def differences(before, after, shift, shares):
     """@return what differs, in words; empty: nothing"""
     (was, rows_before), (now, rows_after) = before, after
     found = []
-    if not same_message(was.get("message"), now.get("message")):
+    # The message of a motion has the rounded numbers of its verdict.
+    if "verdict" in was and "verdict" in now:
+        found += differences_of_verdicts(was["verdict"], now["verdict"], size_of(was), shares)
+    elif was.get("message") != now.get("message"):
         found.append(f"message: {was.get('message')} and {now.get('message')}")
     for key in ("status", "steps", "unknowns", "blocks", "moving", "displaced"):
         one, two = was.get(key), now.get(key)

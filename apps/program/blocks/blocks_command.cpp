@@ -62,17 +62,18 @@ std::optional<std::vector<ScenePlane>> read_borders(const std::vector<std::strin
   return planes;
 }
 
-/// Of a scene with --removable; empty after a fault that is told.
-std::optional<std::vector<KeyGroup>> mechanisms_of(const BlocksOptions& options, const BlockReport& report,
-                                                   const RemovableSearch& search, std::ostream& err) {
-  if (options.mechanisms == 0) return std::vector<KeyGroup>();
+/// Of a scene with --removable. @param status changed after a fault, which is told: there are none then
+std::vector<KeyGroup> mechanisms_of(const BlocksOptions& options, const BlockReport& report,
+                                    const RemovableSearch& search, std::ostream& err, int& status) {
+  if (options.mechanisms == 0) return {};
   try {
-    return find_mechanisms(report.loaded(), search, options.mechanisms, options.threads);
+    return find_mechanisms(report.loaded(), search, options.mechanisms);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     err << fmt::format("ashlar: error: no mechanisms by limit analysis: {}\n", error.what());
-    return std::nullopt;
+    status = exit_status::of(error);
+    return {};
   }
 }
 
@@ -85,7 +86,7 @@ std::filesystem::path folder_of(const BlocksOptions& options) {
 /// @return message to the user
 std::string write_files(const std::filesystem::path& folder, const BlockReport& report,
                         const std::vector<RemovableBlock>& removable,
-                        const std::optional<std::vector<KeyGroup>>& mechanisms) {
+                        const std::vector<KeyGroup>& mechanisms) {
   const LoadedScene& loaded = report.loaded();
   std::vector<double> volumes;
   for (std::size_t k = 0; k < report.blocks().size(); ++k)
@@ -102,9 +103,8 @@ std::string write_files(const std::filesystem::path& folder, const BlockReport& 
     write_file_atomically(folder / "key_blocks.csv", removable_csv(report, removable), Durability::process);
     tables += fmt::format("key blocks: {}\n", (folder / "key_blocks.csv").string());
   }
-  if (mechanisms && !mechanisms->empty()) {
-    write_file_atomically(folder / "mechanisms.csv", mechanisms_csv(report, *mechanisms),
-                          Durability::process);
+  if (!mechanisms.empty()) {
+    write_file_atomically(folder / "mechanisms.csv", mechanisms_csv(report, mechanisms), Durability::process);
     tables += fmt::format("mechanisms: {}\n", (folder / "mechanisms.csv").string());
   }
   return tables + fmt::format("blocks: {}\nmodel: {} (.stl, .msh)\n{}", (folder / "blocks.vtu").string(),
@@ -154,6 +154,8 @@ int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream
   diagnostics.print(err);
   if (!loaded) return exit_status::bad_input;
   if (options.stage && !choose_stage(*loaded, *options.stage, err)) return exit_status::bad_input;
+  const auto borders = read_borders(options.borders, loaded->scene.origin, err);
+  if (!borders) return exit_status::bad_input;
   std::optional<FolderClaim> claim;
   if (options.folder || !options.json) {
     try {
@@ -165,28 +167,26 @@ int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream
   }
   const BlockReport report(std::make_shared<const LoadedScene>(*std::move(loaded)));
   std::vector<RemovableBlock> removable;
-  std::optional<std::vector<KeyGroup>> mechanisms;
+  std::vector<KeyGroup> mechanisms;
+  int status = exit_status::done;
   if (force) {
-    const auto borders = read_borders(options.borders, report.loaded().scene.origin, err);
-    if (!borders) return exit_status::bad_input;
     const RemovableSearch search{*force, options.wanted, *borders};
     removable = find_removable_blocks(report, search);
-    mechanisms = mechanisms_of(options, report, search, err);
-    if (!mechanisms) return exit_status::failed;
+    mechanisms = mechanisms_of(options, report, search, err, status);
   }
   const std::vector<RemovableBlock>* looked_at = force ? &removable : nullptr;
   if (options.json) {
     auto json = report_json(report, looked_at);
-    if (options.mechanisms > 0 && mechanisms) json["mechanisms"] = mechanisms_json(report, *mechanisms);
+    if (options.mechanisms > 0) json["mechanisms"] = mechanisms_json(report, mechanisms);
     out << json_text(json) << '\n';
   } else {
     out << report_text(report, looked_at);
-    if (options.mechanisms > 0 && mechanisms) out << mechanisms_text(report, *mechanisms);
+    if (options.mechanisms > 0) out << mechanisms_text(report, mechanisms);
   }
-  if (!claim) return exit_status::done;
+  if (!claim) return status;
   const std::string written = write_files(claim->folder(), report, removable, mechanisms);
   (options.json ? err : out) << written;
-  return exit_status::done;
+  return status;
 }
 
 void declare_blocks_command(CLI::App& program, CommandContext& context) {
@@ -204,28 +204,32 @@ void declare_blocks_command(CLI::App& program, CommandContext& context) {
           "--json: none)")
       ->type_name("DIR");
   command->add_flag("--json", options->json, "Print JSON");
-  command
-      ->add_option("--removable", options->force,
-                   "Key-block analysis of blocks with a free face, under a force of this direction")
-      ->type_name("X,Y,Z");
+  CLI::Option* removable =
+      command
+          ->add_option("--removable", options->force,
+                       "Key-block analysis of blocks with a free face, under a force of this direction")
+          ->type_name("X,Y,Z");
   command
       ->add_option(
           "--border", options->borders,
           "A border of the model that is no free face, besides the planes of supports and boundaries "
           "(repeatable, with --removable)")
-      ->type_name("x=X");
+      ->type_name("x=X")
+      ->needs(removable);
   command
       ->add_option(
           "--mechanisms", options->mechanisms,
           "With --removable: at most so many mechanisms by limit analysis, blocks and groups with bolts and "
           "all strengths of joints, each with its own factor")
       ->check(CLI::Range(0, 1000))
-      ->type_name("N");
+      ->type_name("N")
+      ->needs(removable);
   command
       ->add_option("--wanted", options->wanted,
                    "With --removable: factor for which needed forces are told (default: 1)")
       ->check(CLI::PositiveNumber)
-      ->type_name("F");
+      ->type_name("F")
+      ->needs(removable);
   command->add_option("--stage", options->stage, "Blocks that are there in this stage (default: all blocks)")
       ->type_name("NAME");
   declare_overrides(*command, options->overrides);

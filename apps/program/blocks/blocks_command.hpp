@@ -20,7 +20,6 @@ struct BlocksOptions {
   double wanted = 1.0;               ///< factor for which needed forces are told
   int mechanisms = 0;                ///< by limit analysis, at most; 0: none
   std::vector<std::string> borders;  ///< "x=-8" each
-  int threads = 1;
 };
 
 /// Declares `ashlar blocks`.

@@ -38,12 +38,11 @@ std::string names_of(const Scene& scene, const KeyGroup& group) {
 
 }  // namespace
 
-std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const RemovableSearch& search, int most,
-                                      int threads) {
+std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const RemovableSearch& search, int most) {
   LoadedScene turned = loaded;
   SceneAnalysis& analysis = turned.scene.analysis;
   if (analysis.gravity.norm() > 0.0) analysis.gravity = analysis.gravity.norm() * search.force.normalized();
-  const BuiltSimulation built = built_or_thrown(turned, threads);
+  const BuiltSimulation built = built_or_thrown(turned, 1);
   RigidModel model = built.simulation.rigid_model(analysis.end_time);
   keep_residual_strength(model);
   const JointSelection joints(turned.scene, analysis.safety.of);
@@ -54,7 +53,6 @@ std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const Removable
   wanted.factors = {analysis.safety.lower, analysis.safety.upper, analysis.safety.tolerance};
   wanted.wanted = search.wanted;
   wanted.most = most;
-  wanted.threads = threads;
   return key_groups(model, reduced, wanted);
 }
 

@@ -15,7 +15,7 @@ namespace ashlar {
 /// @param most groups. @return by increasing factor, up to the largest of the scene's analysis.safety
 /// @throws std::exception if the scene cannot be built, or has no limit analysis
 [[nodiscard]] std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const RemovableSearch& search,
-                                                    int most, int threads);
+                                                    int most);
 
 /// A row a group: blocks, volume, factor, needed force, mode.
 [[nodiscard]] std::string mechanisms_text(const BlockReport& report, const std::vector<KeyGroup>& groups);

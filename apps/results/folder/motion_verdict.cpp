@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "apps/results/folder/run_status.hpp"
 #include "geometry/index.hpp"
@@ -12,9 +14,12 @@
 namespace ashlar {
 namespace {
 
+/// True for a block of this rank that may move.
 bool may_move(const Simulation& simulation, std::size_t block) {
+  const int index = static_cast<int>(block);
+  if (!simulation.system().present(index) || !simulation.system().owns(index)) return false;
   const BlockModel& model = simulation.blocks()[block];
-  return !model.fixed() && !model.driven() && simulation.system().present(static_cast<int>(block));
+  return !model.fixed() && !model.driven();
 }
 
 /// Of the centroid since it was placed, m.
@@ -44,6 +49,20 @@ void FallRecord::note(const Simulation& simulation) {
   }
 }
 
+FallRecord merged(const std::vector<FallRecord>& of_ranks) {
+  std::map<int, double> first;
+  for (const FallRecord& record : of_ranks)
+    for (const BlockFall& fall : record.falls) {
+      double& time = first.try_emplace(fall.block, fall.time).first->second;
+      time = std::min(time, fall.time);
+    }
+  FallRecord all;
+  for (const auto& [block, time] : first) all.falls.push_back({block, time});
+  std::stable_sort(all.falls.begin(), all.falls.end(),
+                   [](const BlockFall& a, const BlockFall& b) { return a.time < b.time; });
+  return all;
+}
+
 MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record) {
   MotionVerdict verdict;
   const Vector3 down = down_of(simulation);
@@ -53,12 +72,16 @@ MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record)
     const Vector3 way = way_of(simulation, at(fall.block));
     verdict.fallen.push_back({fall.block, fall.time, way.dot(down), way.norm()});
   }
-  verdict.displaced = static_cast<int>(displaced_blocks(simulation).size());
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     if (!may_move(simulation, k)) continue;
+    ++verdict.all;
     const BlockModel& block = simulation.blocks()[k];
-    const double speed = mean_motion(block, simulation.states()[k].velocity);
-    if (!(speed > resting_share * std::sqrt(gravity * block_size(block)))) continue;
+    const BlockState& state = simulation.states()[k];
+    const double size = block_size(block);
+    if (mean_motion(block, state.position - block.initial_state().position) > displaced_share * size)
+      ++verdict.displaced;
+    const double speed = mean_motion(block, state.velocity);
+    if (!(speed > resting_share * std::sqrt(gravity * size))) continue;
     ++verdict.moving;
     if (speed <= verdict.speed) continue;
     verdict.speed = speed;
@@ -67,18 +90,33 @@ MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record)
   return verdict;
 }
 
+MotionVerdict merged(const std::vector<MotionVerdict>& of_ranks) {
+  MotionVerdict all;
+  for (const MotionVerdict& part : of_ranks) {
+    all.fallen.insert(all.fallen.end(), part.fallen.begin(), part.fallen.end());
+    all.all += part.all;
+    all.displaced += part.displaced;
+    all.moving += part.moving;
+    if (part.speed <= all.speed) continue;
+    all.speed = part.speed;
+    all.fastest = part.fastest;
+  }
+  std::sort(all.fallen.begin(), all.fallen.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.time, a.block) < std::pair(b.time, b.block);
+  });
+  return all;
+}
+
 std::string describe(const MotionVerdict& verdict, const Simulation& simulation) {
   constexpr std::size_t most_named = 5;
-  std::size_t all = 0;
-  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) all += may_move(simulation, k) ? 1 : 0;
   const auto name = [&](int block) { return simulation.blocks()[at(block)].name(); };
   std::string text = verdict.at_rest()
                          ? "at rest"
                          : fmt::format("{} of {} blocks move, block {} fastest: {:.3g} m/s", verdict.moving,
-                                       all, name(verdict.fastest), verdict.speed);
+                                       verdict.all, name(verdict.fastest), verdict.speed);
   const std::size_t fallen = verdict.fallen.size();
   if (fallen > 0)
-    text += fmt::format("; {} of {} blocks {} fallen: ", fallen, all, fallen == 1 ? "has" : "have");
+    text += fmt::format("; {} of {} blocks {} fallen: ", fallen, verdict.all, fallen == 1 ? "has" : "have");
   for (std::size_t k = 0; k < std::min(fallen, most_named); ++k) {
     const MotionVerdict::Fallen& of = verdict.fallen[k];
     text +=

@@ -1,4 +1,4 @@
-// What a run in time shows: blocks that have fallen, blocks out of their places, and whether all are at rest at its end.
+// Verdict on a run in time: blocks that have fallen, blocks out of their places, and rest or motion at its end.
 #pragma once
 
 #include <string>
@@ -22,9 +22,11 @@ struct BlockFall {
 struct FallRecord {
   std::vector<BlockFall> falls;
 
-  /// Notes the state after a step in time. Nothing falls without gravity.
+  /// Notes the state after a step in time, of the blocks of this rank. Nothing falls without gravity.
   void note(const Simulation& simulation);
 };
+/// The first falls of all ranks, by time.
+[[nodiscard]] FallRecord merged(const std::vector<FallRecord>& of_ranks);
 
 struct MotionVerdict {
   struct Fallen {
@@ -34,6 +36,7 @@ struct MotionVerdict {
     double distance;  ///< m, of its centroid from where it was placed
   };
   std::vector<Fallen> fallen;
+  int all = 0;         ///< blocks that may move
   int displaced = 0;   ///< blocks more than a tenth of their size from their places, the fallen ones included
   int moving = 0;      ///< blocks faster than those at rest
   int fastest = -1;    ///< of these; -1: there is none
@@ -41,7 +44,10 @@ struct MotionVerdict {
   [[nodiscard]] bool at_rest() const { return moving == 0; }
 };
 
+/// On the blocks of this rank.
 [[nodiscard]] MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record);
+/// On those of all ranks.
+[[nodiscard]] MotionVerdict merged(const std::vector<MotionVerdict>& of_ranks);
 
 /// "at rest; 2 of 40 blocks have fallen: roof.1 at 0.42 s by 3.1 m, roof.2 at 0.6 s by 2.9 m", "3 of 8 blocks move, block
 /// top fastest: 1.2 m/s"

@@ -120,7 +120,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                                          state.contact_bytes));
   }
   contact_rows_.truncate(state.contact_bytes);
-  shows_state && simulation.steps() > 0 ? add_state(simulation) : add_step(simulation);
+  shows_state&& simulation.steps() > 0 ? add_state(simulation) : add_step(simulation);
 }
 
 ResultFolderState ResultFolder::synced_state() {

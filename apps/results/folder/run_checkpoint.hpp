@@ -28,7 +28,7 @@ struct RunCheckpoint {
   RunSeconds seconds;
   ContactChanges changes;  ///< of static iterations of the present stage
   AccuracyState accuracy;  ///< of a scene with an accuracy
-  FallRecord motion = {};  ///< of steps in time
+  FallRecord falls = {};   ///< of steps in time
 };
 
 /// Reason why a run cannot be continued: no checkpoint, a damaged one, or one of another scene. what() is a message

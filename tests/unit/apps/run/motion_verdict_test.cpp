@@ -1,4 +1,4 @@
-// What a run in time tells at its end: who rests, moves or has fallen, and the peaks of measures.
+// Verdict at the end of a run in time: who rests, moves or has fallen, and the peaks of measures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

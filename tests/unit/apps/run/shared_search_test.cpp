@@ -116,6 +116,25 @@ class BoltRecord final : public RunObserver {
   std::vector<std::vector<double>>& axial_;
 };
 
+// Motion is no search: its verdict is put together from the blocks of all ranks. Courses of random friction slide, fall or rest.
+TEST(SharedRunOfMotion, ItsVerdictIsThatOfOneRank) {
+  for (const double friction : {5.0, 12.0, 20.0}) {
+    const auto scene = scene_of(courses("type = \"dynamic\"\nend_time = 0.6\ntime_step = 2e-3",
+                                        "friction_angle = " + std::to_string(friction)));
+    const nlohmann::json alone = answer(scene, 1).at("verdict");
+    EXPECT_EQ(alone.at("state"), friction < 15.0 ? "moving" : "at rest");
+    for (const int ranks : {2, 3}) {
+      const nlohmann::json shared = answer(scene, ranks).at("verdict");
+      for (const char* key : {"state", "moving", "displaced"})
+        EXPECT_EQ(shared.at(key), alone.at(key)) << key << ranks;
+      EXPECT_NEAR(shared.at("speed"), alone.at("speed"), 1e-6 * alone.at("speed").get<double>());
+      ASSERT_EQ(shared.at("fallen").size(), alone.at("fallen").size());
+      for (std::size_t k = 0; k < alone.at("fallen").size(); ++k)
+        EXPECT_EQ(shared.at("fallen")[k].at("time"), alone.at("fallen")[k].at("time"));
+    }
+  }
+}
+
 TEST(SharedSearch, LimitAnalysisIsThatOfTheFirstRank) {
   const auto scene = scene_of(courses("type = \"factor-of-safety\"", "friction_angle = 30"));
   std::vector<Eigen::MatrixX3d> drawn, positions;

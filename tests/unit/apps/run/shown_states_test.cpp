@@ -90,7 +90,7 @@ TEST_F(ShownStates, WhatStandsHasNoMotionToShow) {
   EXPECT_NEAR(forces(1).at("cube").x(), -2000.0, 0.02);
 }
 
-// What moves under no load at all has no state at rest.
+// A cube that moves at all factors has no state at rest.
 TEST_F(ShownStates, WhatDoesNotStandHasNoForces) {
   scene(
       cube(R"({ type = "factor-of-safety", gravity = [9.81, 0, -1], safety = { lower = 0.9, upper = 2 } })"));

@@ -135,6 +135,21 @@ TEST(SharedStatics, AWallStandsAlikeOnAnyNumberOfRanks) {
 }
 
 /// Multipliers hold points within the penetration tolerance of where the path of the iteration leaves them.
+// Beyond its limit a wall turns over slowly. Rigid blocks of all ranks tell it after as many iterations as on one.
+TEST(SharedStatics, AWallThatTurnsOverSlowlyIsToldAlike) {
+  for (const double share : {1.02, 1.03}) {
+    Placed scene = wall(5, 3, 0);
+    scene.settings.gravity = gravity * Vector3(0.0, share / 5.0, -1.0);
+    const Verdict alone = run_alone(scene, analyse);
+    const Verdict shared = run_shared(scene, owners_of(scene, 2), 2, analyse);
+    EXPECT_EQ(alone.status, StaticStatus::moving) << share;
+    EXPECT_EQ(shared.status, StaticStatus::moving) << share;
+    EXPECT_LE(alone.steps, 16) << share;
+    EXPECT_EQ(shared.steps, alone.steps) << share;
+    EXPECT_EQ(shared.moving.size(), alone.moving.size()) << share;
+  }
+}
+
 TEST(SharedStatics, MultipliersHoldAWallAndAnArchAlike) {
   for (Placed scene : {wall(4, 4), arch(13)}) {
     scene.settings.augmented = true;
