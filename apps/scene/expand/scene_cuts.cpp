@@ -68,10 +68,11 @@ Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, dou
     if (const std::size_t parts = closed_components(solid.mesh(piece), 0.0).size(); parts > 1) {
       diagnostics.error(
           scene.places.key(fmt::format("cut.{}", cut)),
-          fmt::format("cut leaves a body around a hollow ({:.4g} m^3, \"{}\", its surface has {} parts), which is "
-                      "not supported: a [[cut]] by a plane through the hollow before this one is needed, with "
-                      "glued = true the body stays whole",
-                      solid.volume(piece), names[pieces.size()], parts));
+          fmt::format(
+              "cut leaves a body around a hollow ({:.4g} m^3, \"{}\", its surface has {} parts), which is "
+              "not supported: a [[cut]] by a plane through the hollow before this one is needed, with "
+              "glued = true the body stays whole",
+              solid.volume(piece), names[pieces.size()], parts));
       pieces.push_back(nullptr);
       continue;
     }
