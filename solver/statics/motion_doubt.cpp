@@ -62,7 +62,9 @@ MotionDoubt doubt_of_motion(const BlockSystem& system, const RunState& state) {
     fastest = std::max(fastest, mean_motion(model, state.statics.onset.unbalanced[at(block.block)]));
     by_forces = std::max(by_forces, system.settings().largest_gravity());
   }
-  if (!any_of_run(system, !moving.first.empty())) return MotionDoubt::none;
+  // A contact of a block that goes may belong to another rank.
+  goes = any_of_run(system, goes);
+  if (std::none_of(goes.begin(), goes.end(), [](bool of_block) { return of_block; })) return MotionDoubt::none;
   fastest = most_of_run(system, fastest);
   ContactPower power;
   for (const PairRecord& pair : state.records) {

@@ -58,6 +58,16 @@ Joints joints_of(const StepProblem& problem, double tearing_gap) {
   return joints;
 }
 
+/// Ranks evaluate the accelerations of their own blocks. Collective. @param accelerations by block, (p, 3)
+void give_to_ghosts(const BlockShare& share, std::vector<Eigen::MatrixX3d>& accelerations) {
+  std::vector<Eigen::VectorXd> flat;
+  for (const Eigen::MatrixX3d& of_block : accelerations) flat.emplace_back(of_block.reshaped());
+  share.to_ghosts([&](int block) { return &flat[at(block)]; },
+                  [&](int block, const Eigen::VectorXd& value) {
+                    accelerations[at(block)] = value.reshaped(value.size() / 3, 3);
+                  });
+}
+
 }  // namespace
 
 double largest_motion(const Island& island, const std::vector<BodyStep>& bodies) {
@@ -220,6 +230,7 @@ void note_accelerations(const BlockSystem& system, RunState& state, IslandSolver
     state.statics.onset.least_residual = lacking;
     state.statics.onset.rigid = rigid;
   }
+  if (system.share() != nullptr) give_to_ghosts(*system.share(), accelerations);
   state.statics.onset.unbalanced = std::move(accelerations);
 }
 

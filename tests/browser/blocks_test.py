@@ -30,6 +30,18 @@ class BlocksTest(PageTest):
         names = self.evaluate("legendParts(currentFrame(), 10).kinds.map(kind => kind.name)")
         self.assertEqual(names, ["fixed", "order 0 (rigid)"])
 
+    def test_key_blocks_are_a_table_that_picks(self):
+        self.open("slope")
+        head, stone = (line.split("\t") for line in self.text("key-block-table").splitlines())
+        self.assertEqual(head[:2], ["block", "factor"])
+        self.assertEqual(stone[0], "stone")
+        self.assertAlmostEqual(float(stone[1]), math.tan(math.radians(20)) / math.tan(math.radians(30)), delta=1e-4)
+        self.browser.click(*self.evaluate("""(r => [r.x + 5, r.y + 5])(
+            (row => (row.scrollIntoView(), row.getBoundingClientRect()))(document.querySelector('tr.pickable')))"""))
+        self.assertEqual(self.picked()["block"], "stone")
+        self.open("column")
+        self.assertTrue(self.evaluate("element('key-blocks').hidden"))
+
     def test_rigid_blocks_have_a_line_of_thrust(self):
         self.open("rigid", "#thrust=yes&color=stone&contacts=none")
         # A line through each of nine voussoirs, from joint to joint.

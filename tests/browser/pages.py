@@ -26,7 +26,16 @@ class Pages:
                                   ("wall", scenes / "wall.toml", ["--set", "analysis.end_time=0.02", *stress])):
             out = folder / name
             subprocess.run([program, "run", scene, "--out", out, "--quiet", "--view", *more], check=True)
+            if name == "slope":
+                cls.add_key_blocks(program, scene, out)
             cls.files[name] = (out / "view.html").as_uri()
+
+
+    @staticmethod
+    def add_key_blocks(program, scene, folder):
+        subprocess.run([program, "blocks", scene, "--out", folder, "--removable", "0,0,-1"], check=True,
+                       capture_output=True)
+        subprocess.run([program, "view", folder], check=True, capture_output=True)
 
 
 class PageTest(unittest.TestCase):

@@ -37,6 +37,19 @@ class ViewTest(PageTest):
                 self.assertGreater(drawn, fewest)
                 self.assertGreater(len(set(pixels)), 20)
 
+    def test_axis_has_times_where_the_slider_has_them(self):
+        self.open("falling")
+        ticks = self.evaluate("""[...document.querySelectorAll('#time-axis span')].map(
+            tick => [parseFloat(tick.textContent), parseFloat(tick.style.left)])""")
+        self.assertGreaterEqual(len(ticks), 4)
+        for time, place in ticks:
+            self.evaluate(f"showFrame(Math.round({place} / 100 * (data.frames.length - 1)))")
+            # A frame is 0.01 s.
+            self.assertAlmostEqual(float(self.text("clock").split()[2]), time, delta=0.0051)
+        self.evaluate("document.querySelector('#time-axis .event').click()")
+        self.assertIn(self.text("clock").split(" s")[0],
+                      self.evaluate("document.querySelector('#time-axis .event').title"))
+
     def test_slider_moves_picture_clock_and_cursor(self):
         self.open("falling", "#frame=0")
         self.assertIn("t = 0 s", self.text("clock"))
@@ -50,7 +63,7 @@ class ViewTest(PageTest):
         self.assertNotEqual(self.evaluate("element('plot-1').toDataURL()"), plot)
 
     def test_play_goes_on_and_stops(self):
-        self.open("falling")
+        self.open("falling", "#frame=0")
         self.browser.click(*self.middle_of("play"))
         self.evaluate("new Promise(done => setInterval(() => current.frame >= 2 && done(), 5))")
         self.browser.click(*self.middle_of("play"))

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/program/view/key_block_table.hpp"
 #include "apps/program/view/packed_numbers.hpp"
 #include "apps/program/view/view_assets.hpp"
 #include "apps/program/view/view_frames.hpp"
@@ -199,6 +200,7 @@ Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, c
   move_scene(summary, reader.block_names(), reader.origin(), page);
   page["relative_to"] = relative_to(options.relative_to, summary, page["blocks"]);
   page["summary"] = std::move(summary);
+  page["key_blocks"] = read_key_blocks(folder);
   return page;
 }
 

@@ -2,8 +2,8 @@
 //
 // The parts of the page are one script. In reading order: numbers, data (data of the page), units, fields and their
 // colours, surface (blocks), relative (displacements relative to one), legend, joints, forces, actions (loads, supports,
-// bolts, water), vectors, section, camera, marks (axes and scale bar), blocks (their list), pick, plots, answer, summary,
-// address, controls, picture, start.
+// bolts, water), vectors, section, camera, marks (axes and scale bar), blocks (their list), key_blocks, pick, plots, answer,
+// summary, address, controls, timeline, picture, start.
 // `current` (address.js) is the state that the user can change; show() (controls.js) updates the picture for it.
 "use strict";
 

@@ -70,6 +70,8 @@ async function start() {
   tieControls();
   tieStage();
   tieBlockList();
+  showAxis();
+  showKeyBlocks();
   showSummary();
   setTheme();
   element("clock").textContent = clockText(currentFrame());

@@ -134,10 +134,10 @@ TEST(SharedStatics, AWallStandsAlikeOnAnyNumberOfRanks) {
   }
 }
 
-/// Multipliers hold points within the penetration tolerance of where the path of the iteration leaves them.
-// Beyond its limit a wall turns over slowly. Rigid blocks of all ranks tell it after as many iterations as on one.
+// Beyond its limit a wall turns over slowly. Rigid blocks of all ranks tell it after as many iterations as on one, and
+// accelerations at the onset are not opposed by joints between blocks of two ranks.
 TEST(SharedStatics, AWallThatTurnsOverSlowlyIsToldAlike) {
-  for (const double share : {1.02, 1.03}) {
+  for (const double share : {1.005, 1.02, 1.03}) {
     Placed scene = wall(5, 3, 0);
     scene.settings.gravity = gravity * Vector3(0.0, share / 5.0, -1.0);
     const Verdict alone = run_alone(scene, analyse);
@@ -150,6 +150,7 @@ TEST(SharedStatics, AWallThatTurnsOverSlowlyIsToldAlike) {
   }
 }
 
+// Multipliers hold points within the penetration tolerance of where the path of the iteration leaves them.
 TEST(SharedStatics, MultipliersHoldAWallAndAnArchAlike) {
   for (Placed scene : {wall(4, 4), arch(13)}) {
     scene.settings.augmented = true;
