@@ -91,6 +91,18 @@ void warn_of_friction(const Simulation& simulation, std::ostream& err) {
       1.0 + excess);
 }
 
+/// Warns of impacts whose velocities are not quite those of the law.
+void warn_of_impacts(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 1e-4;  // of the fastest velocity: less than restitution and friction are known
+  const ImpactTally& impacts = simulation.impacts();
+  if (!(impacts.residual > ordinary)) return;
+  err << fmt::format(
+      "ashlar: warning: velocities after the impact at t = {:.6g} s differ by {:.2g} of the fastest from "
+      "those of "
+      "restitution and friction ({} of {} impacts by more than 1e-6): no energy was gained\n",
+      impacts.time, impacts.residual, impacts.inaccurate, impacts.count);
+}
+
 /// Warns of dilating joints that slid without contact, and so without dilation.
 void warn_of_hops(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.02;
@@ -113,6 +125,17 @@ void warn_of_turns(const Simulation& simulation, std::ostream& err) {
       "changes its spin, "
       "use a smaller time_step\n",
       simulation.blocks()[static_cast<std::size_t>(turn.block)].name(), turn.angle, turn.time, ordinary);
+}
+
+/// Tells of steps that were shortened as average-acceleration and generalized-alpha would have added energy.
+void warn_of_short_steps(const Simulation& simulation, std::ostream& err) {
+  const LargestTurn& turn = simulation.largest_turn();
+  if (turn.limited == 0) return;
+  err << fmt::format(
+      "ashlar: warning: {} of {} steps were shortened so that no block turns by more than 0.03 rad in one, "
+      "beyond "
+      "which this integrator adds energy: integrator = \"dda\" needs no such steps\n",
+      turn.limited, simulation.steps());
 }
 
 /// Warns of energy that the integrator has added: average-acceleration and generalized-alpha do where stiff blocks spin.
@@ -183,17 +206,6 @@ void warn_of_strength(const Run& run, std::ostream& err) {
 }
 
 /// Prints how a run ended; nothing for a completed one. @param quiet only errors and interrupts
-/// Says what becomes of impacts where blocks fell and the scene does not.
-void tell_rebound(const Run& run, std::ostream& err) {
-  if (!run.verdict() || run.verdict()->fallen.empty() || run.whole().contact.law.restitution) return;
-  for (const SceneJoint& joint : run.whole().joint)
-    if (joint.restitution) return;
-  const bool augmented = run.simulation().system().settings().augmented;
-  err << fmt::format("rebound: contact.restitution is not set: {}\n",
-                     augmented ? "multipliers stop what strikes"
-                               : "springs give back what an impact stores, as far as steps resolve it");
-}
-
 void tell_end(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   const std::string& message = run.message();
   if (!run.unsaved().empty()) {
@@ -228,8 +240,14 @@ void tell_end(const Run& run, const std::filesystem::path& folder, bool quiet, s
 void tell_choices(const BuiltSimulation& built, std::ostream& err) {
   for (const AutomaticChoice& choice : built.choices) {
     const auto* number = std::get_if<double>(&choice.value);
-    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
-                                     : fmt::format("{}", std::get<bool>(choice.value));
+    const auto* word = std::get_if<std::string>(&choice.value);
+    std::string value = word != nullptr ? fmt::format("\"{}\"", *word)
+                        : number        ? fmt::format("{:.4g} {}", *number, choice.unit)
+                                        : fmt::format("{}", std::get<bool>(choice.value));
+    if (!choice.reason.empty()) {
+      if (value.back() == ' ') value.pop_back();
+      value += ": " + choice.reason;
+    }
     err << fmt::format("chosen: {} = {}\n", choice.key, value);
   }
   if (!built.as_placed.empty())
@@ -243,15 +261,16 @@ void tell_results(const Run& run, const std::filesystem::path& folder, bool quie
   if (!run.answer().shows_states()) {
     const LargestValues largest = run.largest();
     if (!quiet) tell_answers(simulation, largest, err);
-    if (!quiet) tell_rebound(run, err);
     warn_of_strain(simulation, largest, err);
     warn_of_chords(simulation, err);
   }
   warn_of_depth(simulation, err);
   warn_of_friction(simulation, err);
   warn_of_hops(simulation, err);
+  warn_of_short_steps(simulation, err);
+  warn_of_impacts(simulation, err);
   warn_of_turns(simulation, err);
-  warn_of_energy(simulation, err);
+  if (!is_static(run.whole().analysis)) warn_of_energy(simulation, err);
   warn_of_order(run, err);
   warn_of_strength(run, err);
 }

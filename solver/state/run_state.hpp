@@ -115,11 +115,20 @@ struct DilatingSlip {
   [[nodiscard]] double flown_share() const { return all > 0.0 ? in_flight / all : 0.0; }
 };
 
+/// Impacts solved so far (impact.hpp). All ranks solve all of them.
+struct ImpactTally {
+  std::uint64_t count = 0;
+  std::uint64_t inaccurate = 0;  ///< whose residual exceeds impact_accuracy
+  double residual = 0.0;         ///< largest, of the fastest velocity of an impact
+  double time = 0.0;             ///< s, of the largest
+};
+
 /// Largest rotation of a block within one step.
 struct LargestTurn {
-  int block = -1;      ///< -1: none so far
-  double angle = 0.0;  ///< rad, to first order in the rotation
-  double time = 0.0;   ///< s, at the end of the step
+  int block = -1;             ///< -1: none so far
+  double angle = 0.0;         ///< rad, to first order in the rotation
+  double time = 0.0;          ///< s, at the end of the step
+  std::uint64_t limited = 0;  ///< steps that were shortened for a turn (step/turn_limit.hpp)
 };
 
 /// Wall time of the parts of a step, s.
@@ -145,6 +154,7 @@ struct ContactExtremes {
   /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time
   FrictionTally sliding_friction;
   DilatingSlip dilating_slip;
+  ImpactTally impacts;
   LargestTurn turn;  ///< of steps in time
 };
 

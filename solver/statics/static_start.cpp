@@ -53,6 +53,7 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
                                    .deepest = {},
                                    .sliding_friction = {},
                                    .dilating_slip = {},
+                                   .impacts = {},
                                    .turn = {}};
   return status;
 }

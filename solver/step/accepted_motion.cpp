@@ -8,6 +8,7 @@
 #include "solver/step/angular_momentum.hpp"
 #include "solver/step/applied_force.hpp"
 #include "solver/step/island_parts.hpp"
+#include "solver/step/turn_limit.hpp"
 
 namespace ashlar {
 namespace {
@@ -244,17 +245,6 @@ void keep_angular_momentum(const BlockSystem& system, RunState& state, const Ste
   if (has_shared_bodies(system)) bodies.return_spins(system.share()->shared_bodies());
 }
 
-/// Rotation of a block between two configurations, rad: that of the rigid motion closest to them, to first order.
-double turn_between(const Eigen::MatrixX3d& before, const Eigen::MatrixX3d& after) {
-  // Coefficients beyond the first are those of zero mean: arms from the centroid.
-  const Eigen::Index arms = before.rows() - 1;
-  const Eigen::Matrix3d spread = before.bottomRows(arms).transpose() * before.bottomRows(arms);
-  const Eigen::Matrix3d moment = before.bottomRows(arms).transpose() * after.bottomRows(arms);
-  const Vector3 axial(moment(1, 2) - moment(2, 1), moment(2, 0) - moment(0, 2), moment(0, 1) - moment(1, 0));
-  const Eigen::Matrix3d inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
-  return inertia.ldlt().solve(axial).norm();
-}
-
 /// Notes how far blocks turn in a step. @param before states at its start
 void note_turns(const BlockSystem& system, RunState& state, const std::vector<BlockState>& before,
                 double step) {
@@ -262,7 +252,7 @@ void note_turns(const BlockSystem& system, RunState& state, const std::vector<Bl
   for (int k = 0; k < system.count(); ++k) {
     if (!system.moving()[at(k)] || !system.owns(k)) continue;
     const double angle = turn_between(before[at(k)].position, state.states[at(k)].position);
-    if (angle > largest.angle) largest = {k, angle, state.clock.time_after(step)};
+    if (angle > largest.angle) largest = {k, angle, state.clock.time_after(step), largest.limited};
   }
 }
 

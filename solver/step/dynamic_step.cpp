@@ -19,6 +19,7 @@
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/snapshot.hpp"
 #include "solver/step/step_problem.hpp"
+#include "solver/step/turn_limit.hpp"
 
 namespace ashlar {
 namespace {
@@ -203,6 +204,7 @@ StepStatus take_step(const RunContext& run, double end_time) {
   double step = state.next_step;
   const double left = end_time - state.time();
   if (left < step - time_rounding(settings.time_step, end_time)) step = left;
+  step = limited_by_turns(system, state, step);
   if (settings.integrator == Integrator::generalized_alpha && state.accelerations.empty())
     state.accelerations = smooth_accelerations(system, state);
   if (run.shared != nullptr) balance_ranks(*run.shared, system, state, run.caches);

@@ -10,8 +10,8 @@
 // energy; with several, or with friction, it may: then the impulses are those between e = 0, which dissipate, and e,
 // that keep the energy.
 //
-// Gauss-Seidel over the points in their order, so that results do not depend on threads; where it is slow, splitting
-// (impact_splitting.hpp). Redundant points (four corners of a face) share the impulse; the motion is the same.
+// Impulses: proximal_impact.hpp. Redundant points (four corners of a face) share the impulse; the motion is the same.
+// There always is an answer: impulses within their cones that gain no energy, with the residual of the law.
 #pragma once
 
 #include <Eigen/Dense>
@@ -37,17 +37,18 @@ struct ImpactResult {
   std::vector<Eigen::VectorXd> changes;   ///< z, by body
   std::vector<Eigen::Vector3d> impulses;  ///< j, by point, N s on a along (n, t1, t2)
   double work = 0.0;                      ///< of the impulses, on given motion too, J, <= 0
-  /// Error of a point's velocity against its law (impact_splitting.hpp), over the largest velocity before; that of the
-  /// solutions between which the energy chooses. Above impact_accuracy the impulses are not those of the law
+  /// Error of a point's velocity against its law (ImpactBodies::residual), over the largest velocity before; that of the
+  /// solutions between which the energy chooses
   double residual = 0.0;
 };
 
-/// Residual of a solution that is as good as exact.
+/// Residual of a solution that is as good as exact. Points at nearly the same place limit it to 1e-8.
 inline constexpr double impact_accuracy = 1e-6;
 
 struct ImpactEffort {
-  int sweeps = 500;                  ///< of Gauss-Seidel over the points, > 0
-  int splitting_iterations = 20000;  ///< after sweeps that do not converge
+  int quick = 500;      ///< iterations of splitting, before passes of Newton's method
+  int thorough = 5000;  ///< the same where these do not suffice
+  int passes = 40;
 };
 
 /// @param inertia of each body: a multiple of the unit matrix, kg/m^3 in mass-orthonormal functions

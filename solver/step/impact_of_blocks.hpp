@@ -6,21 +6,15 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "geometry/union_find.hpp"
+#include "solver/step/closing_speeds.hpp"
 #include "solver/step/impact.hpp"
 #include "solver/step/rigid_motions.hpp"
 
 namespace ashlar {
-
-/// Limits of an impact.
-struct ImpactLimits {
-  double gap;    ///< largest of points that are about to touch, m
-  double speed;  ///< that gravity gives in a step, m/s
-};
-
-[[nodiscard]] ImpactLimits limits_of(const SimulationSettings& settings, double time);
 
 /// Points of two blocks that touch. Of bodies only places in a list of all are unknown.
 struct TouchingPoints {
@@ -43,7 +37,7 @@ class ImpactOfBlocks {
   [[nodiscard]] bool may_meet();
   /// @return false if no blocks meet
   [[nodiscard]] bool find();
-  /// Changes velocities and books the loss. @throws std::runtime_error if the impulses do not converge
+  /// Changes velocities and books the loss.
   void apply();
 
  private:
@@ -77,6 +71,7 @@ class ImpactOfBlocks {
   ImpactLimits limits_;
   const std::vector<ContactPair>& pairs_;
   RigidMotions motions_;
+  std::optional<ClosingSpeeds> speeds_;
   UnionFind bonded_;         ///< blocks that bonds hold together, and the ground behind them
   UnionFind group_;          ///< moving blocks that touch, directly or not
   std::vector<bool> meets_;  ///< by first block of a group

@@ -19,8 +19,18 @@ namespace {
 struct Released {
   int block;
   std::shared_ptr<const BlockParts> held;  ///< with its faces held
-  Eigen::MatrixX3d external;               ///< gravity and loads, without waves, (p, 3)
+  Eigen::MatrixX3d external;               ///< gravity and loads of rest, without waves, (p, 3)
 };
+
+/// Gravity and loads of the rest that a motion starts from. What is placed without a static analysis or a stress that
+/// balances its loads was not at rest under them: they act from the first instant on.
+Eigen::MatrixX3d forces_of_rest(const BlockSystem& system, const RunState& state, int block,
+                                const TimeScheme& scheme) {
+  Eigen::MatrixX3d force = external_force(system, state.clock, block, scheme);
+  const BlockModel& model = system.blocks()[at(block)];
+  if (!state.remembers_statics && !model.initial_stress()) force -= model.load_force(state.time());
+  return force;
+}
 
 /// Equations of rest: forces are those of the present state.
 TimeScheme at_rest() {
@@ -71,7 +81,7 @@ void release_quiet_faces(BlockSystem& system, RunState& state, StepCaches& cache
   for (const int k : system.quiet()) {
     const BlockModel& block = system.blocks()[at(k)];
     if (!block.holds_quiet_faces()) continue;
-    released.push_back({k, block.parts(), external_force(system, state.clock, k, at_rest())});
+    released.push_back({k, block.parts(), forces_of_rest(system, state, k, at_rest())});
     replace_model(system, state, caches, k, block.with_quiet_faces(true, library));
   }
   if (!any_of_run(system, !released.empty())) return;

@@ -3,7 +3,8 @@
 //
 // On release the reaction of the supports becomes a constant force. It balances the forces of elasticity, gravity,
 // loads, contacts, ties and bolts of the present state on all motions of the block that its held faces excluded.
-// From equilibrium nothing moves. Waves and dashpots are no part of it: a state that moves is not slowed down.
+// From equilibrium nothing moves. Loads on a block that is placed without a static analysis and without initial stress
+// act from the first instant on: the reaction has nothing of them. Waves and dashpots are no part of it: a state that moves is not slowed down.
 #pragma once
 
 #include <map>

@@ -6,6 +6,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/step/agreement.hpp"
+#include "solver/step/closing_speeds.hpp"
 #include "solver/step/impact_of_blocks.hpp"
 
 namespace ashlar {
@@ -29,23 +30,23 @@ std::optional<FirstTouch> touch_of(double gap, double velocity, double accelerat
 /// Time of the first impact of a pair in a solved step, s; infinity: none.
 double first_impact(const StepProblem& problem, double step, const ContactPair& pair,
                     const ImpactLimits& limits, RigidMotions& motions) {
-  const auto [touching, fast] = limits;
   double first = std::numeric_limits<double>::infinity();
   const Eigen::RowVectorXd end =
       pair.places(problem.bodies[at(pair.a())].change, problem.bodies[at(pair.b())].change).row(0);
   if (!(end.minCoeff() <= 0.0)) return first;
   Eigen::RowVectorXd velocities, rates;
   for (Eigen::Index k = 0; k < end.size(); ++k) {
-    const double gap = pair.start_gap(static_cast<std::size_t>(k));
-    if (end[k] > 0.0 || gap <= touching || pair.holds(static_cast<std::size_t>(k))) continue;
+    const auto point = static_cast<std::size_t>(k);
+    const double gap = pair.start_gap(point);
+    if (end[k] > 0.0 || gap <= limits.gap || pair.holds(point)) continue;
     if (velocities.size() == 0) {
       velocities = motions.at_points(pair).row(0);
       rates = motions.accelerations(pair, problem);
     }
-    const double way = gap - 0.5 * touching;
+    const double way = gap - 0.5 * limits.gap;
     const FirstTouch straight{step * way / (gap - end[k]), (gap - end[k]) / step};
     const FirstTouch touch = touch_of(way, velocities[k], rates[k]).value_or(straight);
-    if (touch.speed > fast) first = std::min(first, touch.time);
+    if (touch.speed > limits.speed) first = std::min(first, touch.time);
   }
   return first;
 }

@@ -8,8 +8,8 @@
 // friction. What they dissipate is booked as damping.
 //
 // Speeds below which there is no rebound, for a step dt and gravity g:
-//     g dt      a block at rest on another one gains no more in a step: contact at rest never is an impact
-//     g dt/2e   the rebound would end within the step: e = 0
+//     1.5 g dt      a block at rest on another one gains g dt in a step: contact at rest never is an impact
+//     0.75 g dt/e   the rebound would end within a step or two: e = 0
 // Slower contacts are closed by springs or multipliers as without restitution.
 #pragma once
 
@@ -27,7 +27,6 @@ namespace ashlar {
 
 /// Applies the impulses of blocks that are about to touch at the start of a step: changes velocities and books the
 /// loss. Collective. @return true if there were any
-/// @throws std::runtime_error if the impulses do not converge: nothing has changed then
 bool rebound(const BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs);
 
 }  // namespace ashlar

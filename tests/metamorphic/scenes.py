@@ -17,9 +17,18 @@ def scene(analysis, contact, blocks, measured, young_modulus=1e9, **more):
             "block": blocks, "measure": [{"name": f"of {name}", "block": name} for name in measured], **more}
 
 
+def landing():
+    """The first impacts of a stone that spins, on another one that rests. Later ones hang on roundings: which of two corners
+    strikes first."""
+    result = impact()
+    result["analysis"]["end_time"] = 0.09
+    result["contact"]["restitution"] = 0.25
+    return result
+
+
 def impact():
-    """A stone that spins lands on another one with a corner, then on the floor."""
-    return scene({"end_time": 0.25, "time_step": 1e-3}, {"friction_angle": 25.0},
+    """A stone that spins lands on another one with a corner, then on the floor; springs stand for the joints."""
+    return scene({"end_time": 0.25, "time_step": 1e-3}, {"friction_angle": 25.0, "restitution": "springs"},
                  [floor(), box("lower", (-0.5, -0.625, 0), (0.5, 0.5, 0.75)),
                   box("upper", (0.125, -0.25, 0.875), (0.875, 0.25, 1.375), velocity=[-1.0, 0.25, -2.0],
                       angular_velocity=[1.0, 2.0, 0.5])], ["lower", "upper"])
@@ -35,7 +44,8 @@ def static():
 
 def rigid():
     """Two equal rigid cubes, the upper one thrown along the lower one."""
-    return scene({"end_time": 0.2, "time_step": 1e-3}, {"friction_angle": 30.0, "normal_stiffness": 2e10},
+    return scene({"end_time": 0.2, "time_step": 1e-3},
+                 {"friction_angle": 30.0, "normal_stiffness": 2e10, "restitution": "springs"},
                  [floor(), box("lower", (-0.5, -0.5, 0), (0.5, 0.5, 1), order=0),
                   box("upper", (-0.25, -0.375, 1), (0.75, 0.625, 2), order=0, velocity=[0.5, 0.25, 0.0])],
                  ["lower", "upper"])
@@ -146,7 +156,7 @@ def leaning_stack():
 
 
 SCENES = {function.__name__: function for function in (
-    impact, static, rigid, high_order, friction, cohesion, damping, cut_rock, masonry, stages, multipliers,
+    impact, landing, static, rigid, high_order, friction, cohesion, damping, cut_rock, masonry, stages, multipliers,
     generalized_alpha)}
 
 # Their answers are factors, in brackets.

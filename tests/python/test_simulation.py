@@ -243,7 +243,7 @@ def test_the_summary_tells_the_time_inside_the_run(tmp_path):
 def test_a_simulation_that_has_failed_says_so_again(tmp_path):
     # 2000 kg at 200 m/s press springs of 20 E / size by 200 sqrt(2000 / 2e10) = 0.06 m, where 1e-3 m are allowed.
     blocks = [CUBE["block"][0], dict(CUBE["block"][1], translate=[0, 0, 0.1], velocity=[0, 0, -200])]
-    contact = {"friction_angle": 30, "allowed_depth": 1e-3}
+    contact = {"friction_angle": 30, "allowed_depth": 1e-3, "restitution": "springs"}
     sim = ashlar.Scene.from_dict(dict(CUBE, block=blocks, contact=contact)).simulation()
     with pytest.raises(RuntimeError) as first:
         sim.run()

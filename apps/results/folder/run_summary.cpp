@@ -170,6 +170,7 @@ nlohmann::ordered_json json_of(const std::vector<AutomaticChoice>& choices) {
     nlohmann::ordered_json value;
     std::visit([&](const auto& chosen) { value = chosen; }, choice.value);
     list.push_back({{"key", choice.key}, {"value", value}, {"unit", choice.unit}});
+    if (!choice.reason.empty()) list.back()["reason"] = choice.reason;
   }
   return list;
 }
@@ -236,6 +237,11 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
     summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
   if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
     summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
+  if (const ImpactTally& impacts = simulation.impacts(); impacts.count > 0)
+    summary["impacts"] = {{"count", impacts.count},
+                          {"inaccurate", impacts.inaccurate},
+                          {"largest_residual", impacts.residual},
+                          {"largest_residual_time", impacts.time}};
   summary["energy_refound"] = {{"gained", simulation.ledger().redetection_gained},
                                {"lost", simulation.ledger().redetection_lost}};
   summary["energy_residual"] = simulation.ledger().residual;

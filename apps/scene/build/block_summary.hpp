@@ -3,6 +3,7 @@
 
 #include "geometry/boxes/box.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/state/slowest_vibration.hpp"
 
 namespace ashlar {
 
@@ -14,17 +15,22 @@ struct BlockSummary {
   int freedom = 0;  ///< BlockModel::freedom
   int order = 1;    ///< BlockModel::order
   bool incremental = false;
+  double mass = 0.0;               ///< kg
+  double slowest_vibration = 0.0;  ///< 1/s, ashlar::slowest_vibration, of motion
 
   [[nodiscard]] bool fixed() const { return stiffness.fixed; }
 };
 
-[[nodiscard]] inline BlockSummary summary_of(const BlockModel& block) {
+/// @param moves true: an analysis of motion
+[[nodiscard]] inline BlockSummary summary_of(const BlockModel& block, bool moves) {
   return {box_of(block.solid().mesh().points),
           block.basis().centroid(),
           stiffness_source(block),
           block.freedom(),
           block.order(),
-          block.incremental() != nullptr};
+          block.incremental() != nullptr,
+          block.mass(),
+          moves ? slowest_vibration(block) : 0.0};
 }
 
 }  // namespace ashlar

@@ -55,7 +55,7 @@ SurveyedBlocks surveyed(const SceneModels& models, std::size_t first, std::size_
     Diagnostics faults;
     std::optional<BlockModel> model = model_or_fault(models, k, library, faults);
     if (model) warn_of_turned_support(models.scene(), k, *model, faults);
-    result.blocks.push_back(model ? summary_of(*model) : BlockSummary());
+    result.blocks.push_back(model ? summary_of(*model, !is_static(models.scene().analysis)) : BlockSummary());
     result.faults.push_back(faults.sorted());
     if (kept != nullptr && model) kept->push_back(std::move(*model));
   }

@@ -14,6 +14,7 @@
 
 #include "apps/scene/build/block_survey.hpp"
 #include "apps/scene/build/bolts_of_scene.hpp"
+#include "apps/scene/build/chosen_restitution.hpp"
 #include "apps/scene/build/initial_state.hpp"
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/scene_models.hpp"
@@ -122,10 +123,14 @@ class JointLaws {
         asked_for_(scene.contact.augmented.value_or(false)),
         table_(std::move(table)),
         strength_factor_(strength_factor),
-        reduced_(scene, scene.analysis.safety.of) {
+        reduced_(scene, scene.analysis.safety.of),
+        summaries_(std::make_shared<const std::vector<BlockSummary>>(blocks)),
+        restitution_(scene, *summaries_) {
     source_.reserve(blocks.size());
     for (const BlockSummary& block : blocks) source_.push_back(block.stiffness);
-    if (!multipliers_ || asked_for_) note_choices(kinds_of_blocks(scene), choices);
+    const std::vector<std::vector<std::size_t>> kinds = kinds_of_blocks(scene);
+    if (!multipliers_ || asked_for_) note_choices(kinds, choices);
+    if (restitution_.chooses()) note_restitution(kinds, choices);
   }
 
   JointLaw operator()(int a, int b) const {
@@ -161,7 +166,7 @@ class JointLaws {
     // Several entries together must not generate energy either.
     result.dilation = std::min(tangent(given.dilation_angle), result.residual->friction);
     result.damping = given.damping;
-    result.restitution = given.restitution;
+    result.restitution = restitution_.of(a, b, given);
     result.fracture = given.fracture_energy.value_or(FractureEnergy{});
     return result;
   }
@@ -226,6 +231,25 @@ class JointLaws {
     }
   }
 
+  /// Of pairs for which the scene gives no restitution: whether all are plastic, some, or none.
+  void note_restitution(const std::vector<std::vector<std::size_t>>& kinds,
+                        std::vector<AutomaticChoice>& choices) const {
+    bool plastic = false, springs = false;
+    for (std::size_t m = 0; m < kinds.size(); ++m) {
+      for (std::size_t n = m; n < kinds.size(); ++n) {
+        const std::size_t a = kinds[m].front(), b = kinds[n].back();
+        if (a == b || (source_[a].fixed && source_[b].fixed)) continue;
+        const SceneJointLaw law = table_->law_between(a, b);
+        if (law.restitution) continue;
+        (restitution_.of(a, b, law) ? plastic : springs) = true;
+      }
+    }
+    const std::string key = plastic && springs ? "contact.restitution (stiff pairs)" : "contact.restitution";
+    if (plastic) choices.push_back({key, 0.0, "", "a step does not resolve how they rebound"});
+    if (springs && !plastic)
+      choices.push_back({key, std::string("springs"), "", "steps resolve them, or damping has the loss"});
+  }
+
   bool area_;
   bool multipliers_;
   bool asked_for_;  ///< for all joints, with any given stiffness
@@ -234,6 +258,8 @@ class JointLaws {
   double strength_factor_;
   JointSelection reduced_;
   std::vector<StiffnessSource> source_;  ///< (#blocks)
+  std::shared_ptr<const std::vector<BlockSummary>> summaries_;
+  ChosenRestitution restitution_;
 };
 
 /// Depth up to which contacts start without force, m, for all blocks whose boxes intersect.

@@ -15,8 +15,9 @@ namespace ashlar {
 /// A value chosen by the program.
 struct AutomaticChoice {
   std::string key;  ///< as in the scene, e.g. "contact.distance"
-  std::variant<double, bool> value;
+  std::variant<double, bool, std::string> value;
   std::string unit;
+  std::string reason = "";  ///< empty: none is told
 };
 
 /// A simulation ready for its first step.

@@ -21,7 +21,7 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
   replace(law.tensile_strength_residual, joint.tensile_strength_residual);
   law.dilation_angle = joint.dilation_angle.value_or(law.dilation_angle);
   law.damping = joint.damping.value_or(law.damping);
-  replace(law.restitution, joint.restitution);
+  if (joint.restitution) law.restitution = joint.restitution;
   if (joint.fracture_energy) law.fracture_energy = joint.fracture_energy;
   if (!joint.tied && !joint.tie) return;
   law.tied = joint.tied.value_or(false);

@@ -28,7 +28,8 @@ struct SceneJointLaw {
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
   double dilation_angle = 0.0;                    ///< deg, 0 to friction_angle and its residual value
   double damping = 0.0;                           ///< share of critical, of the joint's springs, 0 to 1
-  std::optional<double> restitution;              ///< 0 to 1
+  /// Outer optional empty: chosen by the program. Inner optional empty: as "springs" rebound. 0 to 1
+  std::optional<std::optional<double>> restitution;
   std::optional<FractureEnergy> fracture_energy;  ///< J/m^2
   bool tied = false;            ///< bonded without limit over the common face; a key of [[joint]] only
   std::optional<SceneTie> tie;  ///< bonded up to a strength, which cohesion and tensile_strength hold too
@@ -71,7 +72,7 @@ struct SceneJoint {
   std::optional<double> compressive_strength;
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
   std::optional<double> dilation_angle, damping;
-  std::optional<double> restitution;
+  std::optional<std::optional<double>> restitution;  ///< as of SceneJointLaw
   std::optional<FractureEnergy> fracture_energy;
   std::optional<bool> tied;
   std::optional<SceneTie> tie;  ///< `tied` given as a table

@@ -19,7 +19,9 @@ void read_more_of_joint(TomlTableReader& table, Law& law) {
   table.read_number("tensile_strength_residual", law.tensile_strength_residual, range::not_negative);
   table.read_number("dilation_angle", law.dilation_angle, range::zero_to_below_90);
   table.read_number("damping", law.damping, range::zero_to_one);
-  table.read_number("restitution", law.restitution, range::zero_to_one);
+  std::optional<double> restitution;
+  if (table.read_number_or_word("restitution", "springs", restitution, range::zero_to_one))
+    law.restitution = restitution;
   const bool fracture = table.given("fracture_energy");
   TomlTableReader energy = table.table_or_empty("fracture_energy");
   FractureEnergy read;

@@ -32,7 +32,12 @@ Json to_json(const FractureEnergy& energy) {
 /// @param law a SceneJointLaw or a SceneJoint
 template <class Law>
 void add_impact_and_fracture(Json& json, const Law& law) {
-  if (law.restitution) json["restitution"] = *law.restitution;
+  if (law.restitution) {
+    if (*law.restitution)
+      json["restitution"] = **law.restitution;
+    else
+      json["restitution"] = "springs";
+  }
   if (law.fracture_energy) json["fracture_energy"] = to_json(*law.fracture_energy);
 }
 

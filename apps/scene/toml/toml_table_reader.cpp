@@ -112,14 +112,25 @@ bool TomlTableReader::read_number(std::string_view key, std::optional<double>& r
 bool TomlTableReader::read_number_or_auto(std::string_view key, std::optional<double>& result,
                                           const NumberRange& range) {
   note(key, {.kind = KeyForm::Kind::automatic});
+  return read_number_or(key, "auto", result, range);
+}
+
+bool TomlTableReader::read_number_or_word(std::string_view key, const char* word,
+                                          std::optional<double>& result, const NumberRange& range) {
+  note(key, {.kind = KeyForm::Kind::word, .words = {word}});
+  return read_number_or(key, word, result, range);
+}
+
+bool TomlTableReader::read_number_or(std::string_view key, std::string_view word,
+                                     std::optional<double>& result, const NumberRange& range) {
   note(key, {.kind = KeyForm::Kind::number, .range = range});
   const toml::node* node = find(key);
   if (!node) return false;
-  if (const auto* text = node->as_string(); text && **text == "auto") {
+  if (const auto* text = node->as_string(); text && **text == word) {
     result.reset();
     return true;
   }
-  const std::string words = fmt::format("{} or \"auto\"", range.words);
+  const std::string words = fmt::format("{} or \"{}\"", range.words, word);
   return read_number(key, result,
                      {range.low, range.high, range.low_allowed, range.high_allowed, words.c_str()});
 }

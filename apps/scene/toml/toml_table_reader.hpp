@@ -65,6 +65,9 @@ class TomlTableReader {
   bool read_number(std::string_view key, std::optional<double>& result, const NumberRange& range);
   /// "auto" makes the result empty.
   bool read_number_or_auto(std::string_view key, std::optional<double>& result, const NumberRange& range);
+  /// The word makes the result empty.
+  bool read_number_or_word(std::string_view key, const char* word, std::optional<double>& result,
+                           const NumberRange& range);
   bool read_integer(std::string_view key, int& result, int low, int high);
   bool read_integer(std::string_view key, std::optional<int>& result, int low, int high);
   /// "auto" makes the result empty.
@@ -130,6 +133,8 @@ class TomlTableReader {
   }
 
  private:
+  bool read_number_or(std::string_view key, std::string_view word, std::optional<double>& result,
+                      const NumberRange& range);
   /// Records a key for a schema.
   void note(std::string_view key, KeyForm form) {
     if (reading_.recorder() != nullptr)

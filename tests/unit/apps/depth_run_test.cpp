@@ -47,6 +47,7 @@ end_time = 0.12
 time_step = 1e-3
 [contact]
 friction_angle = 10
+restitution = "springs"
 [[material]]
 name = "stone"
 density = 2500

@@ -165,6 +165,31 @@ TEST(QuietBoundary, ASleepingBlockIsWokenByItsWave) {
   EXPECT_GT(place_of(simulation, 0, {1, 1, 0}).x() - 1.0, 1e-3);
 }
 
+// A load of the first instant is no reaction: once its wave has passed the block moves with p / (rho c_p) throughout.
+TEST(QuietBoundary, ALoadFromTheFirstInstantMovesTheBase) {
+  const Material bar{2000.0, 2e8, 0.0};
+  const double speed = std::sqrt(2e8 / 2000.0), pressure = 1e4;
+  for (const int order : {1, 2, 3}) {
+    for (const Integrator integrator :
+         {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
+      BlockDefinition block = block_of("bar", Polyhedron(make_box({0, 0, 0}, {1, 1, 5})), bar, order);
+      block.quiet.push_back({.where = FaceList{outer_faces(*block.solid, {{0, 0, 0}, -Vector3::UnitZ()})}});
+      Load& load = block.loads.emplace_back();
+      load.where = FaceList{outer_faces(*block.solid, {{0, 0, 5}, Vector3::UnitZ()})};
+      load.vector = {0, 0, -pressure};
+      std::vector<BlockModel> blocks;
+      blocks.emplace_back(std::move(block));
+      Simulation simulation(std::move(blocks), {{}}, same_law({1e10, 4e9, 0.6, 0.0, 0.0, true}),
+                            settings_of(integrator, 5e-4));
+      ASSERT_TRUE(run_until(simulation, 0.5));
+      const double before = place_of(simulation, 0, {0.5, 0.5, 0.0}).z();
+      ASSERT_TRUE(run_until(simulation, 1.0));
+      const double velocity = (place_of(simulation, 0, {0.5, 0.5, 0.0}).z() - before) / 0.5;
+      EXPECT_NEAR(velocity / (-pressure / (2000.0 * speed)), 1.0, 0.01) << order;
+    }
+  }
+}
+
 TEST(QuietBoundary, ABlockAsPlacedWithoutForcesStays) {
   Simulation simulation = stack(settings_of(Integrator::dda, 1e-3), {{}});
   ASSERT_TRUE(run_until(simulation, 0.01));

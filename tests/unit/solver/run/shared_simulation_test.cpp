@@ -167,8 +167,9 @@ TEST(SharedSimulation, EveryIntegratorMovesAlike) {
     scene.settings.integrator = integrator;
     scene.settings.stiffness_damping = 1e-4;
     scene.law.damping = 0.1;
-    const End alone = run_alone(scene, 60);
-    const End shared = run_shared(scene, owners_of(scene, 3), 3, 60);
+    // Blocks that spin shorten the steps: more of them lead to as many contacts.
+    const End alone = run_alone(scene, 120);
+    const End shared = run_shared(scene, owners_of(scene, 3), 3, 120);
     EXPECT_LT(distance(alone, shared), 1e-9);
     EXPECT_NEAR(alone.totals.ledger.damping, shared.totals.ledger.damping,
                 1e-9 * alone.totals.ledger.damping);

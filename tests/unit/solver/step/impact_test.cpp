@@ -52,10 +52,10 @@ TEST(Impact, ARowOfFiveThatTouchIsNoCradle) {
   EXPECT_NEAR(result.work, 0.0, 1e-11);
 }
 
-TEST(Impact, SweepsThatEndTooSoonAreToldByTheResidual) {
+TEST(Impact, PassesThatEndTooSoonAreToldByTheResidual) {
   const std::vector<ImpactPoint> points = row_of({1.0, 0.0, 0.0}, 1.0);
   EXPECT_LT(solve_impact({1.0, 1.0, 1.0}, {1, 1, 1}, points).residual, 1e-12);
-  EXPECT_GT(solve_impact({1.0, 1.0, 1.0}, {1, 1, 1}, points, {3, 0}).residual, impact_accuracy);
+  EXPECT_GT(solve_impact({1.0, 1.0, 1.0}, {1, 1, 1}, points, {10, 10, 0}).residual, impact_accuracy);
 }
 
 TEST(Impact, PointsThatPartHaveNoImpulse) {
