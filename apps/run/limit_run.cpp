@@ -300,10 +300,11 @@ std::vector<ShownState> limit_states(const LimitFindings& findings, const SceneA
   std::vector<Eigen::MatrixX3d> positions = drawn_motion(motion, simulation);
   BalancedForces forces =
       path.lower ? carried(findings.path.rest, positions, simulation) : BalancedForces{{}, motion.bars};
+  const std::string where =
+      path.upper ? fmt::format("beyond {} {:.5g}", name, path.lower.value_or(*path.upper)) : "found";
   states.push_back(
-      {fmt::format("onset of the motion {}, enlarged",
-                   path.upper ? fmt::format("beyond {} {:.5g}", name, path.lower.value_or(*path.upper))
-                              : std::string("found")),
+      {fmt::format("{} {}, enlarged",
+                   path.upper && !path.proven ? "a motion that may begin" : "onset of the motion", where),
        std::move(positions), std::move(forces)});
   return states;
 }

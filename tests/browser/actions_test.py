@@ -79,6 +79,10 @@ class ActionsTest(PageTest):
              "load factor between 1.915 and 2: block wall.1 topples"),
             ("{status: 'completed', factor_of_safety: {lower: null, upper: 0.5, moving: []}}",
              "factor of safety below 0.5, where blocks move"),
+            ("{status: 'completed', factor_of_safety: {lower: 1.4065, upper: 1.4178, proven: false, released: 0.569, "
+             "associated: 4.159, mode: 'slides', moving: ['rock.1']}}",
+             "factor of safety at least 1.407 (at 1.418 neither rest nor motion was found): block rock.1 slides; 0.569 if joints "
+             "do not wedge; 4.159 if joints dilate"),
             ("{status: 'moving', moving: [{block: 'arch.1'}, {block: 'arch.2'}]}",
              "does not stand: 2 of 27 blocks move: arch.1, arch.2"),
         ]

@@ -131,7 +131,11 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
     const std::size_t column = table.columns.size() - options.values.size() + k;
     if (std::all_of(table.rows.begin(), table.rows.end(),
                     [&](const auto& row) { return row[column].empty(); }))
-      err << fmt::format("ashlar: warning: no run has a number of that name ({})\n", options.values[k]);
+      err << fmt::format(
+          "ashlar: warning: no run has a number of that name ({}), a column of history.csv or a path in "
+          "summary.json is "
+          "needed, entries of lists by their name (thrust.left.least)\n",
+          options.values[k]);
   }
   const std::string text = table_csv(table);
   write_file_atomically(file, text, Durability::process);

@@ -31,15 +31,23 @@ struct RunValues {
   }
 
  private:
-  /// The number at a path of keys with dots between, which keys may have, too.
+  /// The number at a path of keys with dots between, which keys and names may have, too.
   static std::optional<double> number_in(const Json& place, std::string_view path) {
     if (path.empty()) return place.is_number() ? std::optional(place.get<double>()) : std::nullopt;
-    if (!place.is_object()) return std::nullopt;
-    for (const auto& [key, value] : place.items()) {
-      if (!path.starts_with(key) || (path.size() > key.size() && path[key.size()] != '.')) continue;
-      const std::string_view rest = path.substr(std::min(key.size() + 1, path.size()));
-      if (const auto found = number_in(value, rest)) return found;
-    }
+    const auto below = [path](const Json& value, std::string_view key) -> std::optional<double> {
+      if (key.empty() || !path.starts_with(key) || (path.size() > key.size() && path[key.size()] != '.'))
+        return std::nullopt;
+      return number_in(value, path.substr(std::min(key.size() + 1, path.size())));
+    };
+    if (place.is_object())
+      for (const auto& [key, value] : place.items())
+        if (const auto found = below(value, key)) return found;
+    // An entry of a list goes by one of its texts: thrust.support.1.least.
+    if (place.is_array())
+      for (const Json& entry : place)
+        for (const auto& [key, value] : entry.items())
+          if (entry.is_object() && value.is_string())
+            if (const auto found = below(entry, value.get_ref<const std::string&>())) return found;
     return std::nullopt;
   }
 };

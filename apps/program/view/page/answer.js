@@ -26,11 +26,12 @@ function motionText(summary) {
 }
 
 /// "between 2.61 and 2.63", "1.21 (released)"
-function factorText({lower, upper}) {
+function factorText({lower, upper, proven}) {
   const known = (factor) => factor !== null && factor !== undefined;
   if (!known(lower) && !known(upper)) return "not found";
   if (!known(lower)) return "below " + short(upper) + ", where blocks move";
   if (!known(upper)) return "above " + short(lower) + ", where all stands";
+  if (proven === false) return "at least " + short(lower) + " (at " + short(upper) + " neither rest nor motion was found)";
   return "between " + short(lower) + " and " + short(upper);
 }
 
@@ -39,9 +40,10 @@ function factorAnswer(summary) {
   const key = factorKey(summary);
   const factor = summary[key];
   const motion = motionText(summary);
-  const unreleased = factor.associated && factor.upper && factor.associated > 1.02 * factor.upper;
+  const unlike = (other, than) => other && than && Math.abs(other - than) > 0.02 * than;
   return FACTORS[key] + " " + factorText(factor) + (motion ? ": " + motion : "")
-    + (unreleased ? "; " + short(factor.associated) + " if joints wedge" : "");
+    + (unlike(factor.released, factor.lower) ? "; " + short(factor.released) + " if joints do not wedge" : "")
+    + (unlike(factor.associated, factor.upper) ? "; " + short(factor.associated) + " if joints dilate" : "");
 }
 
 /// The first line of the summary.
