@@ -64,7 +64,8 @@ MotionDoubt doubt_of_motion(const BlockSystem& system, const RunState& state) {
   }
   // A contact of a block that goes may belong to another rank.
   goes = any_of_run(system, goes);
-  if (std::none_of(goes.begin(), goes.end(), [](bool of_block) { return of_block; })) return MotionDoubt::none;
+  if (std::none_of(goes.begin(), goes.end(), [](bool of_block) { return of_block; }))
+    return MotionDoubt::none;
   fastest = most_of_run(system, fastest);
   ContactPower power;
   for (const PairRecord& pair : state.records) {

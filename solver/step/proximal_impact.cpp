@@ -11,7 +11,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double accuracy = 1e-10;       ///< residual that ends the passes
 constexpr double step_accuracy = 1e-12;  ///< of a solution by Newton's method, of the speed of the points
 constexpr int passes_without_gain = 8;   ///< that end the passes
 constexpr double gain = 0.5;
@@ -157,8 +156,8 @@ class ProximalPasses {
 
 }  // namespace
 
-FoundImpulses proximal_impulses(const ImpactBodies& bodies, FoundImpulses start, const Compliance& compliance,
-                                double accuracy, int passes) {
+FoundImpulses proximal_impulses(const ImpactBodies& bodies, const FoundImpulses& start,
+                                const Compliance& compliance, double accuracy, int passes) {
   return ProximalPasses(bodies, start).run(compliance, accuracy, passes);
 }
 

@@ -25,7 +25,7 @@ struct Compliance {
 };
 
 /// @param start impulses to begin with. @param accuracy of the residual that ends the passes. @param passes at most, > 0
-[[nodiscard]] FoundImpulses proximal_impulses(const ImpactBodies& bodies, FoundImpulses start,
+[[nodiscard]] FoundImpulses proximal_impulses(const ImpactBodies& bodies, const FoundImpulses& start,
                                               const Compliance& compliance, double accuracy, int passes);
 
 }  // namespace ashlar

@@ -52,7 +52,9 @@ class FractureFaults {
   }
 
   void check_restitution() {
-    if (!law_.restitution.value_or(std::nullopt) || scene_.analysis.formulation != SceneAnalysis::Formulation::incremental) return;
+    if (!law_.restitution.value_or(std::nullopt) ||
+        scene_.analysis.formulation != SceneAnalysis::Formulation::incremental)
+      return;
     report(
         {"restitution"},
         "restitution of blocks of the incremental formulation (formulation = \"incremental\"), formulation = "

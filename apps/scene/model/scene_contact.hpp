@@ -26,8 +26,8 @@ struct SceneJointLaw {
   std::optional<double> compressive_strength;  ///< Pa, > 0; empty: unlimited
   /// Strength of failed or later contacts; at most the values above. Empty: friction_angle, no cohesion, no tensile strength
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
-  double dilation_angle = 0.0;                    ///< deg, 0 to friction_angle and its residual value
-  double damping = 0.0;                           ///< share of critical, of the joint's springs, 0 to 1
+  double dilation_angle = 0.0;  ///< deg, 0 to friction_angle and its residual value
+  double damping = 0.0;         ///< share of critical, of the joint's springs, 0 to 1
   /// Outer optional empty: chosen by the program. Inner optional empty: as "springs" rebound. 0 to 1
   std::optional<std::optional<double>> restitution;
   std::optional<FractureEnergy> fracture_energy;  ///< J/m^2
