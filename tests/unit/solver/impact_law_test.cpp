@@ -108,7 +108,15 @@ TEST_P(OfRocking, LosesTheEnergyOfItsImpulse) {
     strikes = was_down && simulation.impacts().count > count &&
               before - mechanical_energy(simulation) > 0.01 * falls;
   }
-  const double lost = before - mechanical_energy(simulation);
+  // So that an edge which bends may touch in two steps.
+  double after = mechanical_energy(simulation);
+  for (bool goes_on = true; goes_on;) {
+    const std::uint64_t count = simulation.impacts().count;
+    ASSERT_EQ(simulation.step(1.0), StepStatus::accepted);
+    goes_on = simulation.impacts().count > count;
+    if (goes_on) after = mechanical_energy(simulation);
+  }
+  const double lost = before - after;
   // On springs a block of order 2 bends at the edge on which it turns: up to 7 % of its energy is that of vibrations, which
   // an impact of rigid motions leaves.
   const double vibrations = of.order == 2 && !of.multipliers ? 0.07 : 0.02;
@@ -123,7 +131,9 @@ std::vector<Rocking> rockings() {
       for (const bool multipliers : {false, true})
         for (const double step : {4e-3, 1e-3, 1e-4})
           for (const double e : {0.0, 0.3})
-            if (order < 2 || step >= 1e-3) all.push_back({b, h, order, multipliers, step, e});
+            // Order 2: without 0.1 ms, which takes long, and without springs at 4 ms (notes/restitution.md).
+            if (order < 2 || step == 1e-3 || (multipliers && step > 1e-3))
+              all.push_back({b, h, order, multipliers, step, e});
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(, OfRocking, testing::ValuesIn(rockings()));
