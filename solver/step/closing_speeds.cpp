@@ -20,9 +20,10 @@ bool bears(const ContactPair& pair) {
 ImpactLimits limits_of(const SimulationSettings& settings, double time) {
   // A block that is placed on another one without its weight closes by g dt in its first step: rounding shall not decide
   // whether that is an impact.
-  constexpr double steps_of_fall = 1.5;
-  return {settings.search.passing_share * settings.contact_distance,
-          steps_of_fall * settings.gravity_at(time).norm() * settings.time_step};
+  constexpr double steps_of_fall = 1.5, steps_of_rise = 0.5;
+  const double in_a_step = settings.gravity_at(time).norm() * settings.time_step;
+  return {settings.search.passing_share * settings.contact_distance, steps_of_fall * in_a_step,
+          steps_of_rise * in_a_step};
 }
 
 ClosingSpeeds::ClosingSpeeds(const BlockSystem& system, const std::vector<ContactPair>& pairs,
@@ -37,7 +38,7 @@ ClosingSpeeds::ClosingSpeeds(const BlockSystem& system, const std::vector<Contac
   for (const ContactPair& pair : pairs) {
     if (!pair.restitution() || !system.owns_pair(pair.a(), pair.b())) continue;
     if (!wanted[at(pair.a())] && !wanted[at(pair.b())]) continue;
-    const Eigen::Matrix3Xd velocities = motions.at_points(pair);
+    const Eigen::Matrix3Xd& velocities = motions.at_points(pair);
     for (std::size_t k = 0; k < pair.points().size(); ++k) {
       if (pair.holds(k) || pair.loaded(k)) continue;
       for (const int block : {pair.a(), pair.b()})

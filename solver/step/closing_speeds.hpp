@@ -12,8 +12,9 @@ namespace ashlar {
 
 /// Limits of an impact.
 struct ImpactLimits {
-  double gap;    ///< largest of points that are about to touch, m
-  double speed;  ///< that gravity gives in one and a half steps, m/s: slower points are at rest
+  double gap;      ///< largest of points that are about to touch, m
+  double speed;    ///< that gravity gives in one and a half steps, m/s: slower points are at rest
+  double rebound;  ///< that gravity takes in half a step, m/s: slower points do not rebound
 
   /// Largest gap of the fastest point that takes part in an impact of others, m.
   [[nodiscard]] double moment() const { return 10.0 * gap; }

@@ -52,7 +52,7 @@ bool ImpactOfBlocks::may_meet() {
   }
   speeds_.emplace(system_, pairs_, near, limits_, motions_);
   const auto closes = [this](std::size_t n) {
-    const Eigen::Matrix3Xd velocities = motions_.at_points(pairs_[n]);
+    const Eigen::Matrix3Xd& velocities = motions_.at_points(pairs_[n]);
     for (std::size_t k = 0; k < pairs_[n].points().size(); ++k)
       if (speeds_->begins(pairs_[n], k, velocities(0, static_cast<Eigen::Index>(k)))) return true;
     return false;
@@ -150,7 +150,6 @@ bool ImpactOfBlocks::note_touching(std::size_t n) {
   const double fast = limits_.speed;
   const double e = pair.restitution().value_or(0.0);
   const bool apart = bonded_.find(body_or_ground(pair.a())) != bonded_.find(body_or_ground(pair.b()));
-  std::optional<Eigen::Matrix3Xd> velocities;
   bool meets = false;
   for (std::size_t k = 0; k < pair.points().size(); ++k) {
     if (pair.holds(k)) {
@@ -159,11 +158,10 @@ bool ImpactOfBlocks::note_touching(std::size_t n) {
     }
     const bool loaded = pair.loaded(k);
     if (!loaded && pair.start_gap(k) > limits_.moment()) continue;
-    if (!velocities) velocities = motions_.at_points(pair);
-    const double velocity = (*velocities)(0, static_cast<Eigen::Index>(k));
+    const double velocity = motions_.at_points(pair)(0, static_cast<Eigen::Index>(k));
     if (!speeds_->takes_part(pair, k, velocity)) continue;
     const bool impact = pair.restitution() && apart && !loaded && -velocity > fast;
-    const bool rebounds = impact && -e * velocity > 0.5 * fast;
+    const bool rebounds = impact && -e * velocity > limits_.rebound;
     meets = meets || (apart && speeds_->begins(pair, k, velocity));
     // A contact that bears is not loaded further, whatever its springs do.
     targets_[n].push_back({k, rebounds ? -e * velocity : impact ? 0.0 : std::min(velocity, 0.0), false});
@@ -214,7 +212,7 @@ void ImpactOfBlocks::make_points(std::size_t n, TouchingPoints& touching) {
   const ContactPair& pair = pairs_[n];
   const std::vector<Eigen::Matrix3Xd> of_a = rows_of(pair, pair.a(), true);
   const std::vector<Eigen::Matrix3Xd> of_b = rows_of(pair, pair.b(), false);
-  const Eigen::Matrix3Xd velocities = motions_.at_points(pair);
+  const Eigen::Matrix3Xd& velocities = motions_.at_points(pair);
   const Eigen::Matrix3Xd own =
       pair.rows().free_motion(motions_.velocity(pair.a()), motions_.velocity(pair.b()));
   for (const PointTarget& target : targets_[n]) {

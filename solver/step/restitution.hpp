@@ -9,7 +9,7 @@
 //
 // Speeds below which there is no rebound, for a step dt and gravity g:
 //     1.5 g dt      a block at rest on another one gains g dt in a step: contact at rest never is an impact
-//     0.75 g dt/e   the rebound would end within a step or two: e = 0
+//     g dt/2e       the rebound would end within the step: e = 0
 // Slower contacts are closed by springs or multipliers as without restitution.
 #pragma once
 

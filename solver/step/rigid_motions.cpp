@@ -43,11 +43,14 @@ Eigen::MatrixX3d RigidMotions::driven_velocity(int block) const {
                        : Eigen::MatrixX3d(velocity - model.space().expand(model.space().restrict(velocity)));
 }
 
-Eigen::Matrix3Xd RigidMotions::at_points(const ContactPair& pair) {
+const Eigen::Matrix3Xd& RigidMotions::at_points(const ContactPair& pair) {
+  const auto [found, is_new] = at_points_.emplace(&pair, Eigen::Matrix3Xd());
+  if (!is_new) return found->second;
   PairRows rows = pair.rows();
   rows.prescribe(pair.points(), system_.blocks()[at(pair.a())], driven_velocity(pair.a()),
                  system_.blocks()[at(pair.b())], driven_velocity(pair.b()));
-  return rows.motion(velocity(pair.a()), velocity(pair.b()));
+  found->second = rows.motion(velocity(pair.a()), velocity(pair.b()));
+  return found->second;
 }
 
 Eigen::RowVectorXd RigidMotions::accelerations(const ContactPair& pair, const StepProblem& problem) const {

@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-/// Rigid motions and velocities of blocks, computed on first use.
+/// Rigid motions and velocities of blocks, computed on first use. States and pairs do not change meanwhile.
 class RigidMotions {
  public:
   RigidMotions(const BlockSystem& system, const std::vector<BlockState>& states)
@@ -23,8 +23,8 @@ class RigidMotions {
   Eigen::VectorXd velocity(int block);
   /// Velocity by moving supports, (p, 3); empty: none.
   [[nodiscard]] Eigen::MatrixX3d driven_velocity(int block) const;
-  /// Relative velocities of a pair's points along normals and tangents, m/s. @return (3, #points)
-  Eigen::Matrix3Xd at_points(const ContactPair& pair);
+  /// Relative velocities of a pair's points along normals and tangents, m/s, computed on first use. @return (3, #points)
+  const Eigen::Matrix3Xd& at_points(const ContactPair& pair);
   /// Accelerations of a pair's points by gravity and loads, along their normals, m/s^2.
   [[nodiscard]] Eigen::RowVectorXd accelerations(const ContactPair& pair, const StepProblem& problem) const;
 
@@ -32,6 +32,7 @@ class RigidMotions {
   const BlockSystem& system_;
   const std::vector<BlockState>& states_;
   std::map<int, Eigen::MatrixXd> modes_;
+  std::map<const ContactPair*, Eigen::Matrix3Xd> at_points_;
 };
 
 }  // namespace ashlar

@@ -175,6 +175,18 @@ nlohmann::ordered_json json_of(const std::vector<AutomaticChoice>& choices) {
   return list;
 }
 
+void add_contact_tallies(nlohmann::ordered_json& summary, const Simulation& simulation) {
+  if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)
+    summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
+  if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
+    summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
+  if (const ImpactTally& impacts = simulation.impacts(); impacts.count > 0)
+    summary["impacts"] = {{"count", impacts.count},
+                          {"inaccurate", impacts.inaccurate},
+                          {"largest_residual", impacts.residual},
+                          {"largest_residual_time", impacts.time}};
+}
+
 }  // namespace
 
 void add_origin(nlohmann::ordered_json& summary, const Vector3& origin) {
@@ -233,15 +245,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   const BrokenJoints broken = ranks.empty() ? broken_joints(simulation) : broken_joints(ranks);
   summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
   if (!simulation.bolts().empty()) summary["support"] = support_summary(simulation);
-  if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)
-    summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
-  if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
-    summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
-  if (const ImpactTally& impacts = simulation.impacts(); impacts.count > 0)
-    summary["impacts"] = {{"count", impacts.count},
-                          {"inaccurate", impacts.inaccurate},
-                          {"largest_residual", impacts.residual},
-                          {"largest_residual_time", impacts.time}};
+  add_contact_tallies(summary, simulation);
   summary["energy_refound"] = {{"gained", simulation.ledger().redetection_gained},
                                {"lost", simulation.ledger().redetection_lost}};
   summary["energy_residual"] = simulation.ledger().residual;

@@ -20,7 +20,7 @@ class ChosenRestitution {
 
   /// Empty: as springs. @param law of the joint of two blocks
   [[nodiscard]] std::optional<double> of(std::size_t a, std::size_t b, const SceneJointLaw& law) const;
-  /// Whether the scene has motion for which the program chooses.
+  /// True if the scene has motion for which the program chooses.
   [[nodiscard]] bool chooses() const { return chooses_; }
 
  private:

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar::impact_law_test {
@@ -41,6 +42,22 @@ JointLaw law_of(double restitution, double friction) {
 double mechanical_energy(const Simulation& simulation) {
   const Ledger& ledger = simulation.ledger();
   return ledger.kinetic + ledger.elastic + ledger.gravity + ledger.contact;
+}
+
+/// Energies of the rigid motion of block 1, of width b and height h, in the plane y = const, J.
+struct RigidEnergy {
+  double kinetic = 0.0;
+  double total = 0.0;
+};
+RigidEnergy rigid_energy(const Simulation& simulation, double b, double h) {
+  const BlockModel& block = simulation.blocks()[1];
+  const Vector3 centre = place_of(simulation, 1, block.basis().centroid()), momentum = simulation.momentum();
+  const double spin = (simulation.angular_momentum() - centre.cross(momentum)).y();
+  const double inertia = block.mass() * (b * b + h * h) / 12.0;
+  RigidEnergy energy;
+  energy.kinetic = 0.5 * momentum.squaredNorm() / block.mass() + 0.5 * spin * spin / inertia;
+  energy.total = energy.kinetic + 9.81 * block.mass() * centre.z();
+  return energy;
 }
 
 /// Kinetic energy after over before an impact of the far edge of a block that rocks about the near one: an impulse at the
@@ -92,36 +109,26 @@ TEST_P(OfRocking, LosesTheEnergyOfItsImpulse) {
       "block", turned(solid, Eigen::AngleAxisd(tilt, Vector3::UnitY()), Vector3::Zero()), stone, of.order));
   Simulation simulation(std::move(blocks), {{}, {}}, same_law(law_of(of.restitution, 1.5)),
                         settings_of(of.step, of.multipliers));
-  const double potential = mechanical_energy(simulation);
-  // The near edge, which is placed on the floor, may strike it as it takes the weight.
+  const double start = mechanical_energy(simulation);
   const Vector3 far_edge(-of.width * std::cos(tilt), 0.25, of.width * std::sin(tilt));
   const auto is_down = [&] { return place_of(simulation, 1, far_edge).z() < 1e-4; };
-  double before = 0.0, falls = 0.0;
+  // The near edge strikes too, by little, as it takes the weight and where a block of order 2 vibrates on it.
+  RigidEnergy before, after = rigid_energy(simulation, of.width, of.height);
   for (bool strikes = false; !strikes;) {
     const bool was_down = is_down();
     const std::uint64_t count = simulation.impacts().count;
-    before = mechanical_energy(simulation);
-    falls = simulation.ledger().kinetic;
+    before = after;
     ASSERT_EQ(simulation.step(1.0), StepStatus::accepted);
     ASSERT_LT(simulation.time(), 1.0);
-    // The near edge strikes too, by little, while a block of order 2 vibrates on it.
-    strikes = was_down && simulation.impacts().count > count &&
-              before - mechanical_energy(simulation) > 0.01 * falls;
+    after = rigid_energy(simulation, of.width, of.height);
+    strikes =
+        was_down && simulation.impacts().count > count && before.total - after.total > 0.05 * before.kinetic;
   }
-  // So that an edge which bends may touch in two steps.
-  double after = mechanical_energy(simulation);
-  for (bool goes_on = true; goes_on;) {
-    const std::uint64_t count = simulation.impacts().count;
-    ASSERT_EQ(simulation.step(1.0), StepStatus::accepted);
-    goes_on = simulation.impacts().count > count;
-    if (goes_on) after = mechanical_energy(simulation);
-  }
-  const double lost = before - after;
-  // On springs a block of order 2 bends at the edge on which it turns: up to 7 % of its energy is that of vibrations, which
-  // an impact of rigid motions leaves.
-  const double vibrations = of.order == 2 && !of.multipliers ? 0.07 : 0.02;
-  EXPECT_NEAR(1.0 - lost / falls, kept_by_rocking(of.width, of.height, of.restitution), vibrations);
-  EXPECT_LE(mechanical_energy(simulation), potential * (1.0 + 1e-9));
+  // Missed: on springs the edge on which a block of order 2 turns vibrates, and so does its rigid motion (restitution.md).
+  const double allowed = of.order == 2 && !of.multipliers ? 0.07 : 0.02;
+  EXPECT_NEAR(1.0 - (before.total - after.total) / before.kinetic,
+              kept_by_rocking(of.width, of.height, of.restitution), allowed);
+  EXPECT_LE(mechanical_energy(simulation), start * (1.0 + 1e-9));
 }
 
 std::vector<Rocking> rockings() {
@@ -131,12 +138,21 @@ std::vector<Rocking> rockings() {
       for (const bool multipliers : {false, true})
         for (const double step : {4e-3, 1e-3, 1e-4})
           for (const double e : {0.0, 0.3})
-            // Order 2: without 0.1 ms, which takes long, and without springs at 4 ms (notes/restitution.md).
+            // Order 2 takes long at 0.1 ms. Missed: on springs at 4 ms.
             if (order < 2 || step == 1e-3 || (multipliers && step > 1e-3))
               all.push_back({b, h, order, multipliers, step, e});
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(, OfRocking, testing::ValuesIn(rockings()));
+
+/// An L-shaped prism in a box.
+Polyhedron l_shaped(const Vector3& low, const Vector3& size) {
+  const Polyhedron prism = test_support::l_shaped_prism();
+  std::vector<Vector3> points;
+  for (const Vector3& point : prism.mesh().points)
+    points.emplace_back(low + size.cwiseProduct(point.cwiseProduct(Vector3(0.5, 0.5, 1.0))));
+  return prism.with_points(std::move(points));
+}
 
 /// Blocks that fall on each other, turning. @param reversed their order in the list
 Simulation tumbling(unsigned seed, bool reversed, double restitution, std::size_t count) {
@@ -151,8 +167,9 @@ Simulation tumbling(unsigned seed, bool reversed, double restitution, std::size_
   for (std::size_t k = 0; k < count; ++k) {
     const Vector3 size(number(0.8, 1.2), number(0.8, 1.2), number(0.6, 1.1));
     const Vector3 low(number(-0.15, 0.15) - 0.5 * size.x(), number(-0.15, 0.15) - 0.5 * size.y(), bottom);
-    definitions.push_back(block_of("b" + std::to_string(k), Polyhedron(make_box(low, low + size)),
-                                   Material{2500, 1e9, 0.2}, static_cast<int>(random() % 2)));
+    const Polyhedron solid = random() % 3 == 0 ? l_shaped(low, size) : Polyhedron(make_box(low, low + size));
+    definitions.push_back(
+        block_of("b" + std::to_string(k), solid, Material{2500, 1e9, 0.2}, static_cast<int>(random() % 2)));
     bottom += size.z() + number(0.05, 0.3);
   }
   if (reversed) std::reverse(definitions.begin(), definitions.end());
@@ -183,7 +200,7 @@ TEST_P(OfStacks, TumbleWithoutAnEndOfTheRunAndWithoutGain) {
   }
   EXPECT_LT(highest - start, 1e-5 * simulation.largest_energy());
   EXPECT_GT(simulation.impacts().count, 0U);
-  EXPECT_LT(simulation.impacts().residual, 1e-2);
+  EXPECT_LT(simulation.impacts().residual, 1e-4) << "beyond this a run warns";
 }
 
 // Until the first of two nearly equal ways is taken, the order in which blocks are listed changes nothing.
@@ -207,7 +224,60 @@ TEST_P(OfStacks, DoNotDependOnTheOrderOfBlocks) {
   }
 }
 
+// In flight without weight nothing but impacts acts on blocks that meet.
+TEST_P(OfStacks, KeepMomentumWhereTheyMeetInFlight) {
+  const unsigned seed = GetParam();
+  std::mt19937 random(seed);
+  const auto number = [&](double low, double high) {
+    return low + (high - low) * std::generate_canonical<double, 53>(random);
+  };
+  std::vector<BlockModel> blocks;
+  std::vector<InitialMotion> motions;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 low(1.5 * k, number(-0.3, 0.3), number(-0.3, 0.3)), size(number(0.6, 1.2), 1.0, 0.8);
+    blocks.emplace_back(block_of("b" + std::to_string(k), Polyhedron(make_box(low, low + size)),
+                                 Material{2500, 1e9, 0.2}, static_cast<int>(random() % 2)));
+    motions.push_back(
+        {Vector3(2.0 * (1 - k), 0.1 * k, 0.0), Vector3(number(-1, 1), number(-1, 1), number(-1, 1))});
+  }
+  SimulationSettings settings = settings_of(2e-3, false);
+  settings.gravity.setZero();
+  settings.contact_distance = 2e-3;
+  Simulation simulation(std::move(blocks), motions, same_law(law_of(0.25 * (seed % 5), 0.5)), settings);
+  const Vector3 momentum = simulation.momentum(), spin = simulation.angular_momentum();
+  const double start = mechanical_energy(simulation);
+  while (!simulation.reached(0.5)) ASSERT_EQ(simulation.step(0.5), StepStatus::accepted);
+  EXPECT_GT(simulation.impacts().count, 0U);
+  EXPECT_LT((simulation.momentum() - momentum).norm(), 1e-9 * 2500.0 * 2.0);
+  // The friction of a point acts on each block at its own place, which are a gap apart: up to 2e-5 m as they touch.
+  EXPECT_LT((simulation.angular_momentum() - spin).norm(), 1e-5 * 2500.0 * 2.0 * 3.0);
+  EXPECT_LT(mechanical_energy(simulation), start * (1.0 + 1e-9));
+}
+
 INSTANTIATE_TEST_SUITE_P(, OfStacks, testing::Range(0U, 40U));
+
+// The impulse of a landing has its friction, whatever holds the joint afterwards: momentum lost along the floor is tan(phi)
+// times that gained upwards, weight included.
+TEST(ImpactLaw, LandingsHaveCoulombsFriction) {
+  const double phi = 0.36, fall = 0.02, end = 0.3;
+  for (const bool multipliers : {false, true}) {
+    for (const int order : {0, 1, 2}) {
+      for (const double step : {4e-3, 1e-3, 2.5e-4}) {
+        std::vector<BlockModel> blocks;
+        blocks.emplace_back(fixed_box({-2, -2, -1}, {6, 2, 0}));
+        blocks.emplace_back(block_of(
+            "stone", Polyhedron(make_box({-0.3, -0.3, fall}, {0.3, 0.3, fall + 0.2})), stone, order));
+        Simulation simulation(std::move(blocks), {{}, {Vector3(4, 0, -0.5), Vector3::Zero()}},
+                              same_law(law_of(0.0, phi)), settings_of(step, multipliers));
+        const double mass = simulation.blocks()[1].mass();
+        while (!simulation.reached(end)) ASSERT_EQ(simulation.step(end), StepStatus::accepted);
+        const double upwards = simulation.momentum().z() + mass * (0.5 + 9.81 * end);
+        EXPECT_NEAR((4.0 * mass - simulation.momentum().x()) / (phi * upwards), 1.0, 0.02)
+            << "multipliers " << multipliers << " order " << order << " step " << step;
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace ashlar::impact_law_test

@@ -1,6 +1,7 @@
 // Simulations whose blocks several ranks share.
 #include <algorithm>
 #include <array>
+#include <random>
 
 #include "support/shared_runs.hpp"
 
@@ -274,6 +275,25 @@ TEST(SharedSimulation, BlocksOfSeveralRanksReboundAlike) {
   for (const bool augmented : {false, true}) {
     scene.settings.augmented = augmented;
     expect_same_rebound(scene, owners, 120, true);
+  }
+}
+
+// Impacts of a random family of piles whose blocks turn, with little, some and full rebound.
+TEST(SharedSimulation, TumblingBlocksOfSeveralRanksStrikeAlike) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    std::mt19937 random(seed);
+    const auto number = [&] { return 2.0 * std::generate_canonical<double, 53>(random) - 1.0; };
+    Scene scene = pile(2, static_cast<int>(seed % 2), 0.6, 0.38);
+    for (std::size_t k = 1; k < scene.motions.size(); ++k)
+      scene.motions[k].angular_velocity = {number(), number(), number()};
+    scene.law.restitution = 0.5 * (seed % 3);
+    const End alone = run_alone(scene, 70);
+    ASSERT_GT(alone.totals.extremes.impacts.count, 0U) << seed;
+    for (const int ranks : {2, 3}) {
+      const End shared = run_shared(scene, owners_of(scene, ranks), ranks, 70);
+      EXPECT_LT(distance(alone, shared), 1e-8) << seed << " on " << ranks;
+      EXPECT_EQ(shared.totals.extremes.impacts.count, alone.totals.extremes.impacts.count) << seed;
+    }
   }
 }
 

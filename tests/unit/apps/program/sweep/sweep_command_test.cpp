@@ -53,6 +53,16 @@ point = [0.5, 0.5, 0.5]
   [[nodiscard]] std::filesystem::path runs() const { return folder_ / "t.runs"; }
 };
 
+TEST_F(Sweep, AnEntryOfAListGoesByATextOfIt) {
+  // The distance of contact is a thousandth of the smallest block.
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--value", "automatic.contact.distance.value"}), 0);
+  EXPECT_EQ(lines("t.csv").at(1).substr(lines("t.csv").at(1).rfind(',') + 1), "0.001");
+  ASSERT_EQ(
+      sweep({"--vary", "analysis.end_time=0.1", "--value", "automatic.contact.distances.value", "--force"}),
+      0);
+  EXPECT_THAT(faults_, HasSubstr("no run has a number of that name (automatic.contact.distances.value)"));
+}
+
 TEST_F(Sweep, ARowForEachRunWithWhatCameOfIt) {
   ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1,0.2,-1", "--value", "middle.uz", "-j", "2"}), 2);
   const std::vector<std::string> table = lines("t.csv");

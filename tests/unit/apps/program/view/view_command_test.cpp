@@ -96,6 +96,21 @@ TEST_F(ViewCommand, OfSolidsThePageHoldsTheSurfaces) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out/surfaces.pvd"));
 }
 
+TEST_F(ViewCommand, ThePageHoldsTheKeyBlocksOfTheFolder) {
+  simulate();
+  write_text(folder / "out/key_blocks.csv", "block,volume,factor_of_safety\n'=a,2.5,inf\n\"b,c\",1,0.5\n");
+  ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+  const auto rows = nlohmann::json::parse(scene_of(read_text(folder / "out/view.html")))["key_blocks"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0]["block"], "=a");
+  EXPECT_EQ(rows[0]["volume"], 2.5);
+  EXPECT_TRUE(rows[0]["factor_of_safety"].is_null()) << "no limit";
+  EXPECT_EQ(rows[1]["block"], "b,c");
+  write_text(folder / "out/key_blocks.csv", "block,volume\na\n");
+  EXPECT_NE(run({"view", (folder / "out").string()}), exit_status::done);
+  EXPECT_THAT(err.str(), HasSubstr("line 2 has 1 fields, 2 are needed"));
+}
+
 TEST_F(ViewCommand, ThePageHoldsTheFrames) {
   simulate();
   ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
