@@ -10,6 +10,7 @@
 
 #include "apps/results/tables/history_table.hpp"
 #include "apps/results/text/csv_text.hpp"
+#include "apps/results/text/json_path.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/toml/input_file.hpp"
 
@@ -27,28 +28,8 @@ struct RunValues {
     const auto column =
         std::find_if(at_end.begin(), at_end.end(), [&](const auto& entry) { return entry.first == name; });
     if (column != at_end.end()) return column->second;
-    return number_in(summary, name);
-  }
-
- private:
-  /// The number at a path of keys with dots between, which keys and names may have, too.
-  static std::optional<double> number_in(const Json& place, std::string_view path) {
-    if (path.empty()) return place.is_number() ? std::optional(place.get<double>()) : std::nullopt;
-    const auto below = [path](const Json& value, std::string_view key) -> std::optional<double> {
-      if (key.empty() || !path.starts_with(key) || (path.size() > key.size() && path[key.size()] != '.'))
-        return std::nullopt;
-      return number_in(value, path.substr(std::min(key.size() + 1, path.size())));
-    };
-    if (place.is_object())
-      for (const auto& [key, value] : place.items())
-        if (const auto found = below(value, key)) return found;
-    // An entry of a list goes by one of its texts: thrust.support.1.least.
-    if (place.is_array())
-      for (const Json& entry : place)
-        for (const auto& [key, value] : entry.items())
-          if (entry.is_object() && value.is_string())
-            if (const auto found = below(entry, value.get_ref<const std::string&>())) return found;
-    return std::nullopt;
+    const Json* value = value_at(summary, name);
+    return value != nullptr && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
   }
 };
 

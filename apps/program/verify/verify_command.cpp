@@ -10,8 +10,10 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
+#include "apps/program/verify/cases/scene_case_run.hpp"
 #include "apps/program/verify/verification.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/model/nearest_name.hpp"
@@ -20,13 +22,31 @@
 namespace ashlar {
 namespace {
 
+/// A case of the list: a scene or built in.
+struct ListedCase {
+  std::string name;
+  std::string description;
+  const SceneCase* scene = nullptr;
+  std::optional<VerificationCase> built_in = {};
+};
+
+/// Scenes first, then, without a folder of the user's own, those built in.
+std::vector<ListedCase> listed_cases(const std::vector<SceneCase>& scenes, bool with_built_in) {
+  std::vector<ListedCase> all;
+  for (const SceneCase& scene : scenes) all.push_back({scene.name, scene.about, &scene});
+  if (!with_built_in) return all;
+  for (const VerificationCase& built_in : all_verification_cases())
+    all.push_back({built_in.name, built_in.description, nullptr, built_in});
+  return all;
+}
+
 /// The requested cases, in the order of the list; empty, with an error, if a name is unknown.
-std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names, std::ostream& err) {
-  std::vector<VerificationCase> all = all_verification_cases();
+std::vector<ListedCase> chosen_cases(std::vector<ListedCase> all, const std::vector<std::string>& names,
+                                     std::ostream& err) {
   if (names.empty()) return all;
   std::vector<std::string> known;
   known.reserve(all.size());
-  for (const VerificationCase& candidate : all) known.emplace_back(candidate.name);
+  for (const ListedCase& candidate : all) known.push_back(candidate.name);
   bool good = true;
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
@@ -35,12 +55,11 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
                        likely.empty() ? "" : fmt::format("did you mean {}? ", fmt::join(likely, " or ")));
     good = false;
   }
-  std::vector<VerificationCase> chosen;
-  for (const VerificationCase& candidate : all) {
-    if (good && std::find(names.begin(), names.end(), candidate.name) != names.end())
-      chosen.push_back(candidate);
-  }
-  return chosen;
+  if (!good) return {};
+  std::erase_if(all, [&](const ListedCase& candidate) {
+    return std::find(names.begin(), names.end(), candidate.name) == names.end();
+  });
+  return all;
 }
 
 struct CaseOutcome {
@@ -53,14 +72,20 @@ struct CaseOutcome {
   }
 };
 
-CaseOutcome run(const VerificationCase& chosen) {
+/// A check that has failed for a reason.
+VerificationCheck not_run(std::string reason) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {std::move(reason), nan, nan, nan, 0.0};
+}
+
+CaseOutcome run(const ListedCase& chosen, const std::filesystem::path& kept, Diagnostics& diagnostics) {
   const auto start = std::chrono::steady_clock::now();
   CaseOutcome outcome{chosen.name, {}, 0.0};
   try {
-    outcome.checks = chosen.run();
+    outcome.checks =
+        chosen.scene != nullptr ? run_case(*chosen.scene, kept, diagnostics) : chosen.built_in->run();
   } catch (const std::exception& error) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    outcome.checks = {{fmt::format("could not be run: {}", fault_text(error)), nan, nan, nan, 0.0}};
+    outcome.checks = {not_run(fmt::format("could not be run: {}", fault_text(error)))};
   }
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
@@ -92,47 +117,80 @@ nlohmann::ordered_json to_json(const CaseOutcome& outcome) {
           {"checks", std::move(checks)}};
 }
 
-}  // namespace
-
-int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream& err) {
-  if (options.list && options.json) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const VerificationCase& listed : all_verification_cases())
-      list.push_back({{"name", listed.name}, {"description", listed.description}});
-    out << json_text(list, 2) << '\n';
-    return exit_status::done;
+void list_cases(const std::vector<ListedCase>& all, bool as_json, std::ostream& out) {
+  if (!as_json) {
+    for (const ListedCase& listed : all) out << fmt::format("{:26} {}\n", listed.name, listed.description);
+    return;
   }
-  if (options.list) {
-    for (const VerificationCase& listed : all_verification_cases())
-      out << fmt::format("{:26} {}\n", listed.name, listed.description);
-    return exit_status::done;
-  }
-  const std::vector<VerificationCase> cases = chosen_cases(options.cases, err);
-  if (cases.empty()) return exit_status::bad_input;
-  int failed = 0;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const VerificationCase& chosen : cases) {
-    const CaseOutcome outcome = run(chosen);
+  for (const ListedCase& listed : all) {
+    nlohmann::ordered_json entry = {{"name", listed.name}, {"description", listed.description}};
+    if (listed.scene != nullptr) {
+      entry["reference"] = listed.scene->reference;
+      entry["scene"] = listed.scene->scene.string();
+    }
+    list.push_back(std::move(entry));
+  }
+  out << json_text(list, 2) << '\n';
+}
+
+/// @return exit status
+int run_all(const std::vector<ListedCase>& cases, const VerifyOptions& options, std::ostream& out,
+            std::ostream& err) {
+  int failed = 0;
+  bool evaluated = true;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ListedCase& chosen : cases) {
+    Diagnostics faults;
+    CaseOutcome outcome = run(chosen, options.kept, faults);
+    faults.print(err);
+    evaluated = evaluated && faults.good();
+    if (!faults.good()) outcome.checks.push_back(not_run("could not be evaluated"));
     if (!outcome.passed()) ++failed;
     if (options.json)
       list.push_back(to_json(outcome));
     else
       print(outcome, out);
   }
-  if (options.json) {
+  if (options.json)
     out << json_text({{"passed", failed == 0}, {"cases", std::move(list)}}, 2) << '\n';
-  } else {
+  else
     out << fmt::format("{} of {} cases passed\n", cases.size() - static_cast<std::size_t>(failed),
                        cases.size());
-  }
+  if (!evaluated) return exit_status::bad_input;
   return failed == 0 ? exit_status::done : exit_status::failed;
 }
 
+}  // namespace
+
+int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream& err) {
+  Diagnostics faults;
+  const bool own = !options.folder.empty();
+  const std::filesystem::path folder = own ? options.folder : own_cases();
+  if (folder.empty())
+    err << "ashlar: warning: the scenes of the cases are not installed, only those built in are run\n";
+  const std::vector<SceneCase> scenes =
+      folder.empty() ? std::vector<SceneCase>() : read_cases(folder, faults);
+  faults.print(err);
+  if (!faults.good()) return exit_status::bad_input;
+  std::vector<ListedCase> all = listed_cases(scenes, !own);
+  if (options.list) {
+    list_cases(all, options.json, out);
+    return exit_status::done;
+  }
+  const std::vector<ListedCase> cases = chosen_cases(std::move(all), options.cases, err);
+  return cases.empty() ? exit_status::bad_input : run_all(cases, options, out, err);
+}
+
 void declare_verify_command(CLI::App& program, CommandContext& context) {
-  CLI::App* command = program.add_subcommand("verify", "Run built-in cases against independent references");
+  CLI::App* command = program.add_subcommand("verify", "Run cases against independent references");
   // Shared with the callback that reads it.
   const auto options = std::make_shared<VerifyOptions>();
   command->add_option("CASE", options->cases, "Names of cases (default: all)")->type_name("");
+  command->add_option("--cases", options->folder, "Folder of your own cases (default: those of the program)")
+      ->type_name("FOLDER");
+  command->add_option("--keep", options->kept, "Leave scenes and results of the cases there")
+      ->type_name("FOLDER");
   command->add_flag("--list", options->list, "List the cases");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback(

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/program/verify/verification.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ashlar::verify_command_test {
 namespace {
@@ -26,7 +28,7 @@ Answer verify(const VerifyOptions& options) {
 }
 
 TEST(VerifyCommand, ListsCasesOfRecord) {
-  const Answer answer = verify({{}, true, false});
+  const Answer answer = verify({.list = true});
   EXPECT_EQ(answer.status, exit_status::done);
   for (const char* name : {"moments-tetrahedron",
                            "free-fall",
@@ -70,10 +72,10 @@ TEST(VerifyCommand, ListsCasesOfRecord) {
 }
 
 // Each case is a separate test: they run in parallel, and a preset can exclude slow ones by name.
-class EveryCase : public testing::TestWithParam<const char*> {};
+class EveryCase : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryCase, Passes) {
-  const Answer answer = verify({{GetParam()}, false, true});
+  const Answer answer = verify({.cases = {GetParam()}, .json = true});
   const auto json = nlohmann::json::parse(answer.out);
   ASSERT_EQ(json["cases"].size(), 1u);
   const auto& outcome = json["cases"][0];
@@ -84,30 +86,113 @@ TEST_P(EveryCase, Passes) {
   EXPECT_EQ(answer.status, exit_status::done);
 }
 
-std::vector<const char*> case_names() {
-  std::vector<const char*> names;
-  for (const VerificationCase& listed : all_verification_cases()) names.push_back(listed.name);
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  for (const auto& listed : nlohmann::json::parse(verify({.list = true, .json = true}).out))
+    names.push_back(listed["name"]);
   return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Verify, EveryCase, testing::ValuesIn(case_names()));
 
 TEST(VerifyCommand, ListsCasesAsJson) {
-  const Answer answer = verify({{}, true, true});
+  const Answer answer = verify({.list = true, .json = true});
   EXPECT_EQ(answer.status, exit_status::done);
   const auto json = nlohmann::json::parse(answer.out);
-  ASSERT_EQ(json.size(), all_verification_cases().size());
-  EXPECT_EQ(json[0]["name"], all_verification_cases()[0].name);
-  EXPECT_EQ(json[0]["description"], all_verification_cases()[0].description);
+  ASSERT_GT(json.size(), all_verification_cases().size());
+  // Scenes come first, with the references in words that the page of cases has.
+  for (const char* key : {"name", "description", "reference", "scene"})
+    EXPECT_TRUE(json[0].contains(key)) << key;
+  EXPECT_EQ(json.back()["name"], all_verification_cases().back().name);
 }
 
 TEST(VerifyCommand, UnknownCasesAreRefusedWithTheNearestName) {
-  const Answer answer = verify({{"free-fal"}, false, false});
+  const Answer answer = verify({.cases = {"free-fal"}});
   EXPECT_EQ(answer.status, exit_status::bad_input);
   EXPECT_NE(answer.err.find("did you mean free-fall?"), std::string::npos);
-  EXPECT_NE(
-      verify({{"bar"}, false, false}).err.find("did you mean bar-impact or torsion-bar or spinning-bar?"),
-      std::string::npos);
+  EXPECT_NE(verify({.cases = {"bar"}}).err.find("did you mean bar-impact or torsion-bar or spinning-bar?"),
+            std::string::npos);
+}
+
+/// A folder with a cube on a floor, 8 m^3, and one case.
+class OwnCases : public testing::Test {
+ protected:
+  OwnCases() {
+    write_text(folder / "cube.toml", R"([parameters]
+density = 2000
+[analysis]
+type = "static"
+[[material]]
+name = "rock"
+density = "= density"
+young_modulus = 1e10
+poisson_ratio = 0
+[[block]]
+name = "floor"
+fixed = true
+box = { min = [-2, -2, -1], max = [3, 3, 0] }
+[[block]]
+name = "cube"
+material = "rock"
+order = 0
+box = { min = [-1, -1, 0], max = [1, 1, 2] }
+[[measure]]
+name = "base"
+pair = ["floor", "cube"]
+)");
+  }
+  [[nodiscard]] Answer verified(const std::string& checks) const {
+    write_text(folder / "cases.toml",
+               "[cube-weight]\nabout = \"a cube\"\nreference = \"its weight\"\n"
+               "scene = \"cube.toml\"\nvary = [{ density = [2000, 3000] }]\ncheck = [" +
+                   checks + "]\n");
+    return verify({.folder = folder.path()});
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(OwnCases, RunAndAreKept) {
+  const Answer right =
+      verified("{ value = \"base.normal_force\", expect = \"8*density*9.81\", relative = 1e-9 }");
+  EXPECT_EQ(right.status, exit_status::done) << right.err << right.out;
+  EXPECT_NE(right.out.find("base.normal_force, density 3000"), std::string::npos) << right.out;
+  const Answer kept = verify({.folder = folder.path(), .kept = folder / "kept"});
+  EXPECT_EQ(kept.status, exit_status::done);
+  EXPECT_EQ(read_text(folder / "kept/cube-weight/density_3000/command.txt"),
+            "ashlar run cube.toml --set 'parameters.density=3000'\n");
+  EXPECT_TRUE(std::filesystem::exists(folder / "kept/cube-weight/cube.toml"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "kept/cube-weight/density_2000/history.csv"));
+}
+
+TEST_F(OwnCases, FailByValue) {
+  const Answer wrong =
+      verified("{ value = \"base.normal_force\", expect = \"8*2000*9.81\", relative = 1e-3 }");
+  EXPECT_EQ(wrong.status, exit_status::failed);
+  EXPECT_NE(wrong.out.find("FAIL base.normal_force, density 3000"), std::string::npos) << wrong.out;
+  EXPECT_NE(wrong.out.find("pass base.normal_force, density 2000"), std::string::npos);
+}
+
+TEST_F(OwnCases, FaultsHaveTheirPlace) {
+  const std::string here = (folder / "cases.toml").string();
+  struct Fault {
+    const char *check, *message;
+  };
+  for (const auto& [check, message] :
+       {Fault{"", ":1:2: error: case cube-weight has no check, one is needed"},
+        Fault{"{ value = \"bass.normal_force\", expect = 1, relative = 1 }",
+              ":6:21: error: case cube-weight, density 2000: unknown result (bass.normal_force)"},
+        Fault{"{ value = \"time\", expect = \"0/0\", relative = 1 }",
+              ":6:38: error: case cube-weight, density 2000: formula has no finite value"},
+        Fault{"{ value = \"time\", expect = 1 }", ":6:10: error: check has no single tolerance"},
+        Fault{"{ value = \"time\", relative = 1 }", ":6:10: error: check has 0 references"},
+        Fault{"{ value = \"time\", expect = 1, relativ = 1, absolute = 1 }",
+              "error: unknown key in cube-weight.check (relativ)"}}) {
+    const Answer answer = verified(check);
+    EXPECT_EQ(answer.status, exit_status::bad_input) << check;
+    EXPECT_NE(answer.err.find(message), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find(here), std::string::npos);
+  }
+  EXPECT_EQ(verify({.folder = folder / "nothing"}).status, exit_status::bad_input);
 }
 
 TEST(Verification, AnErrorThatIsNoNumberDoesNotPass) {

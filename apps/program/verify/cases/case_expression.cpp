@@ -1,0 +1,294 @@
+#include "apps/program/verify/cases/case_expression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "apps/results/text/json_path.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// A part of a text. @param offset of its first byte in the whole
+struct Part {
+  std::string_view text;
+  std::size_t offset;
+};
+
+Part trimmed(Part part) {
+  while (!part.text.empty() && part.text.front() == ' ') {
+    part.text.remove_prefix(1);
+    ++part.offset;
+  }
+  while (!part.text.empty() && part.text.back() == ' ') part.text.remove_suffix(1);
+  return part;
+}
+
+bool begins_name(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+bool continues_name(char c) {
+  return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.';
+}
+
+/// Evaluates expressions of one run.
+class Evaluation {
+ public:
+  Evaluation(const Formulas& names, const CaseResults& results) : names_(names), results_(results) {}
+
+  /// @param row whose values columns have
+  [[nodiscard]] double value(Part part, std::size_t row) const {
+    std::string formula = "= ";
+    bool known = true;
+    std::string_view rest = part.text;
+    const auto here = [&] { return part.offset + static_cast<std::size_t>(rest.data() - part.text.data()); };
+    while (!rest.empty()) {
+      const std::optional<std::pair<std::size_t, double>> operand = operand_at({rest, here()}, row);
+      if (operand) {
+        known = known && std::isfinite(operand->second);
+        formula += fmt::format("({:.17g})", known ? operand->second : 0.0);
+        rest.remove_prefix(operand->first);
+        continue;
+      }
+      std::size_t length = 1;
+      if (begins_name(rest.front()))
+        while (length < rest.size() && continues_name(rest[length])) ++length;
+      // Digits and an exponent, so that its letter does not begin a name.
+      else if (std::isdigit(static_cast<unsigned char>(rest.front())) != 0)
+        length = number_length(rest);
+      formula += rest.substr(0, length);
+      rest.remove_prefix(length);
+    }
+    if (!known) return no_value;
+    try {
+      return names_.value(formula);
+    } catch (const FormulaError& error) {
+      throw FormulaError(error.what(), part.offset);
+    }
+  }
+
+ private:
+  static std::size_t number_length(std::string_view text) {
+    const auto digits = [&](std::size_t k) {
+      while (k < text.size() && (std::isdigit(static_cast<unsigned char>(text[k])) != 0 || text[k] == '.'))
+        ++k;
+      return k;
+    };
+    std::size_t end = digits(0);
+    if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
+      std::size_t exponent = end + 1;
+      if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+      if (digits(exponent) > exponent) end = digits(exponent);
+    }
+    return end;
+  }
+
+  /// Length and value of a result at the start of a text. @return empty if none begins there
+  [[nodiscard]] std::optional<std::pair<std::size_t, double>> operand_at(Part part, std::size_t row) const {
+    const std::string_view text = part.text;
+    if (text.front() == '\'') {
+      const std::size_t end = text.find('\'', 1);
+      if (end == std::string_view::npos)
+        throw FormulaError("a quote is not closed, ' is needed", part.offset);
+      return std::pair{end + 1, result(text.substr(1, end - 1), part.offset, row)};
+    }
+    if (!begins_name(text.front())) return std::nullopt;
+    std::size_t length = 1;
+    while (length < text.size() && continues_name(text[length])) ++length;
+    const std::string_view name = text.substr(0, length);
+    if (length < text.size() && text[length] == '(') {
+      if (!is_function(name)) return std::nullopt;
+      const std::size_t end = closing(part, length);
+      const std::vector<Part> arguments =
+          divided({text.substr(length + 1, end - length - 1), part.offset + length + 1});
+      return std::pair{end + 1, function(name, arguments, part.offset, row)};
+    }
+    const bool dotted = name.find('.') != std::string_view::npos;
+    if (!dotted && (names_.knows(std::string(name)) || !column(name))) return std::nullopt;
+    return std::pair{length, result(name, part.offset, row)};
+  }
+
+  [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const {
+    const auto found = std::find(results_.columns.begin(), results_.columns.end(), name);
+    if (found == results_.columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - results_.columns.begin());
+  }
+
+  [[nodiscard]] double result(std::string_view name, std::size_t offset, std::size_t row) const {
+    if (const auto index = column(name)) return results_.rows[row][*index];
+    constexpr std::string_view prefix = "summary.";
+    if (!name.starts_with(prefix))
+      throw FormulaError(
+          fmt::format("unknown result ({}), a column of history.csv or summary.PATH is needed", name),
+          offset);
+    const nlohmann::ordered_json* value = value_at(results_.summary, name.substr(prefix.size()));
+    if (value == nullptr)
+      throw FormulaError(fmt::format("unknown result ({}), a path in summary.json is needed", name), offset);
+    if (value->is_null()) return no_value;
+    if (value->is_boolean()) return value->get<bool>() ? 1.0 : 0.0;
+    if (!value->is_number())
+      throw FormulaError(fmt::format("result is no number ({}), a number in summary.json is needed", name),
+                         offset);
+    return value->get<double>();
+  }
+
+  static bool is_function(std::string_view name) {
+    constexpr std::string_view all[] = {"first", "last", "largest",  "smallest", "mean",
+                                        "hann",  "at",   "crossing", "rising",   "middle"};
+    return std::find(std::begin(all), std::end(all), name) != std::end(all);
+  }
+
+  /// @param open place of the bracket. @return that of the one that closes it
+  static std::size_t closing(Part part, std::size_t open) {
+    int depth = 0;
+    bool quoted = false;
+    for (std::size_t k = open; k < part.text.size(); ++k) {
+      const char c = part.text[k];
+      if (c == '\'') quoted = !quoted;
+      if (quoted) continue;
+      if (c == '(') ++depth;
+      if (c == ')' && --depth == 0) return k;
+    }
+    throw FormulaError("a bracket is not closed, ) is needed", part.offset + open);
+  }
+
+  /// Arguments between commas.
+  static std::vector<Part> divided(Part part) {
+    std::vector<Part> parts;
+    int depth = 0;
+    bool quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k <= part.text.size(); ++k) {
+      const char c = k < part.text.size() ? part.text[k] : ',';
+      if (c == '\'') quoted = !quoted;
+      if (c == '(') ++depth;
+      if (c == ')') --depth;
+      if (c != ',' || (k < part.text.size() && (quoted || depth > 0))) continue;
+      parts.push_back(trimmed({part.text.substr(begin, k - begin), part.offset + begin}));
+      begin = k + 1;
+    }
+    return parts;
+  }
+
+  /// Times and values of an expression in all rows where it has a value.
+  struct Series {
+    std::vector<double> times, values;
+  };
+
+  [[nodiscard]] Series series(Part part, double from, double to) const {
+    const std::size_t time = *column("time");
+    Series all;
+    for (std::size_t row = 0; row < results_.rows.size(); ++row) {
+      const double t = results_.rows[row][time];
+      if (t < from || t > to) continue;
+      const double v = value(part, row);
+      if (std::isnan(v)) continue;
+      all.times.push_back(t);
+      all.values.push_back(v);
+    }
+    return all;
+  }
+
+  static double mean(const Series& all, bool windowed) {
+    if (all.times.size() < 2) return all.times.empty() ? no_value : all.values.front();
+    const double from = all.times.front(), length = all.times.back() - from;
+    const auto weight = [&](std::size_t k) {
+      return windowed ? 1.0 - std::cos(2.0 * std::numbers::pi * (all.times[k] - from) / length) : 1.0;
+    };
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t k = 1; k < all.times.size(); ++k) {
+      const double half = 0.5 * (all.times[k] - all.times[k - 1]);
+      sum += half * (weight(k - 1) * all.values[k - 1] + weight(k) * all.values[k]);
+      weights += half * (weight(k - 1) + weight(k));
+    }
+    return sum / weights;
+  }
+
+  static double value_at_time(const Series& all, double time, std::size_t offset) {
+    for (std::size_t k = 0; k < all.times.size(); ++k) {
+      if (all.times[k] < time) continue;
+      if (all.times[k] == time) return all.values[k];
+      if (k == 0) break;
+      const double share = (time - all.times[k - 1]) / (all.times[k] - all.times[k - 1]);
+      return all.values[k - 1] + share * (all.values[k] - all.values[k - 1]);
+    }
+    throw FormulaError(fmt::format("time is outside the run ({} s), one of its times is needed", time),
+                       offset);
+  }
+
+  static double crossing(const Series& all, int number) {
+    for (std::size_t k = 1; k < all.values.size(); ++k) {
+      if ((all.values[k] > 0.0) == (all.values[k - 1] > 0.0) || --number > 0) continue;
+      const double share = all.values[k - 1] / (all.values[k - 1] - all.values[k]);
+      return all.times[k - 1] + share * (all.times[k] - all.times[k - 1]);
+    }
+    return no_value;
+  }
+
+  [[nodiscard]] double rising(Part of, Part condition, int number) const {
+    bool above = true;
+    for (std::size_t row = 0; row < results_.rows.size(); ++row) {
+      const bool was = std::exchange(above, value(condition, row) > 0.0);
+      if (above && !was && --number == 0) return value(of, row);
+    }
+    return no_value;
+  }
+
+  [[nodiscard]] double middle(Part part) const {
+    const std::string name(part.text);
+    const auto end = [&](const char* key) { return result(name + key, part.offset, 0); };
+    if (name.starts_with("summary.") && value_at(results_.summary, name.substr(8) + ".lower") == nullptr)
+      throw FormulaError(fmt::format("no bracket ({}), lower and upper are needed", name), part.offset);
+    return std::sqrt(end(".lower") * end(".upper"));
+  }
+
+  [[nodiscard]] double function(std::string_view name, std::span<const Part> arguments, std::size_t offset,
+                                std::size_t row) const {
+    static const std::map<std::string_view, std::vector<std::size_t>, std::less<>> counts = {
+        {"first", {1}},   {"last", {1}}, {"largest", {1, 3}}, {"smallest", {1, 3}}, {"mean", {1, 3}},
+        {"hann", {1, 3}}, {"at", {2}},   {"crossing", {2}},   {"rising", {3}},      {"middle", {1}}};
+    const std::vector<std::size_t>& allowed = counts.find(name)->second;
+    if (std::find(allowed.begin(), allowed.end(), arguments.size()) == allowed.end() || results_.rows.empty())
+      throw FormulaError(
+          fmt::format("{} has {} arguments, {} are needed", name, arguments.size(), allowed.back()), offset);
+    const auto number = [&](std::size_t k) { return value(arguments[k], row); };
+    if (name == "middle") return middle(arguments[0]);
+    if (name == "first") return value(arguments[0], 0);
+    if (name == "last") return value(arguments[0], results_.rows.size() - 1);
+    if (name == "rising") return rising(arguments[0], arguments[1], static_cast<int>(number(2)));
+    const bool windowed = arguments.size() == 3;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const Series all =
+        series(arguments[0], windowed ? number(1) : -infinite, windowed ? number(2) : infinite);
+    if (name == "at") return value_at_time(all, number(1), offset);
+    if (all.values.empty()) return no_value;
+    if (name == "largest") return *std::max_element(all.values.begin(), all.values.end());
+    if (name == "smallest") return *std::min_element(all.values.begin(), all.values.end());
+    if (name == "crossing") return crossing(all, static_cast<int>(number(1)));
+    return mean(all, name == "hann");
+  }
+
+  const Formulas& names_;
+  const CaseResults& results_;
+};
+
+}  // namespace
+
+double value_of(const std::string& text, const Formulas& names, const CaseResults& results) {
+  const std::size_t last = results.rows.empty() ? 0 : results.rows.size() - 1;
+  return Evaluation(names, results).value({text, 0}, last);
+}
+
+}  // namespace ashlar

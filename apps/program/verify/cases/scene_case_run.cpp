@@ -1,0 +1,152 @@
+#include "apps/program/verify/cases/scene_case_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "apps/program/verify/cases/case_expression.hpp"
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/results/text/json_path.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/run/run.hpp"
+#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/toml/fault_text.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// A folder name: the label without characters that shells or file systems treat specially.
+std::string folder_name(const std::string& label) {
+  std::string name = label.empty() ? "scene" : label;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-' && c != '+') c = '_';
+  return name;
+}
+
+/// Writes how a variant is repeated.
+void leave_command(const SceneCase& chosen, const CaseVariant& variant, const std::filesystem::path& folder) {
+  std::string command = "ashlar run " + chosen.scene.filename().string();
+  for (const std::string& change : variant.overrides) command += fmt::format(" --set '{}'", change);
+  write_file_atomically(folder / "command.txt", command + "\n", Durability::process);
+}
+
+/// @return empty, with faults in the diagnostics, if the scene has errors
+std::optional<CaseResults> results_of(const SceneCase& chosen, const CaseVariant& variant,
+                                      const std::filesystem::path& folder, Diagnostics& diagnostics) {
+  std::optional<LoadedScene> scene = load_scene(chosen.scene, variant.overrides, diagnostics);
+  if (!scene) return std::nullopt;
+  Run run(std::move(*scene));
+  if (!folder.empty()) {
+    std::filesystem::create_directories(folder.parent_path());
+    run.record(folder, ClaimPurpose::replacement);
+    leave_command(chosen, variant, folder);
+  }
+  try {
+    while (run.step()) {
+    }
+  } catch (const std::runtime_error&) {
+    if (run.status() != RunStatus::failed) throw;
+  }
+  return CaseResults{run.columns(), run.rows(), parse_json(run.summary())};
+}
+
+/// Evaluates the checks of one variant.
+class CheckedVariant {
+ public:
+  CheckedVariant(const SceneCase& chosen, const CaseVariant& variant, CaseResults results,
+                 Diagnostics& diagnostics)
+      : chosen_(chosen), variant_(variant), results_(std::move(results)), diagnostics_(diagnostics) {}
+
+  [[nodiscard]] std::vector<VerificationCheck> checks() const {
+    std::vector<VerificationCheck> done;
+    const std::string status = text_at("summary.status");
+    bool judges_status = false;
+    for (const CaseCheck& check : chosen_.checks) {
+      judges_status = judges_status || check.value.text == "summary.status";
+      if (check.when.given() && number(check.when, false) == 0.0) continue;
+      done.push_back(result_of(check));
+    }
+    for (const char* bad : {"failed", "not converged", "interrupted"})
+      if (!judges_status && status == bad)
+        done.push_back({fmt::format("ended as {}: {}{}", status, text_at("summary.message"), suffix()),
+                        not_known, not_known, not_known, 0.0});
+    return done;
+  }
+
+ private:
+  [[nodiscard]] std::string suffix() const { return variant_.label.empty() ? "" : ", " + variant_.label; }
+
+  [[nodiscard]] std::string text_at(std::string_view name) const {
+    const nlohmann::ordered_json* value = value_at(results_.summary, name.substr(name.find('.') + 1));
+    return value != nullptr && value->is_string() ? value->get<std::string>() : "";
+  }
+
+  /// @param required a finite number is needed, otherwise any
+  [[nodiscard]] double number(const CaseText& expression, bool required) const {
+    try {
+      const double value = value_of(expression.text, variant_.names, results_);
+      if (required && !std::isfinite(value))
+        diagnostics_.error(expression.place, fmt::format("case {}{}: {} has no value, a number is needed",
+                                                         chosen_.name, suffix(), expression.text));
+      return value;
+    } catch (const FormulaError& error) {
+      Place place = expression.place;
+      // Of the text after its quote.
+      if (place.column > 0) place.column += 1 + static_cast<int>(error.offset());
+      diagnostics_.error(std::move(place),
+                         fmt::format("case {}{}: {}", chosen_.name, suffix(), error.what()));
+      return not_known;
+    }
+  }
+
+  [[nodiscard]] VerificationCheck result_of(const CaseCheck& check) const {
+    const std::string what = check.what + suffix();
+    if (check.kind == CaseCheck::Kind::is) {
+      const std::string found = text_at(check.value.text);
+      const bool same = found == check.expected.text;
+      return check_absolute(same ? what : fmt::format("{} (is {})", what, found), same ? 1.0 : 0.0, 1.0, 0.0);
+    }
+    const double measured = number(check.value, false), reference = number(check.expected, true);
+    const double tolerance = check.tolerance.given() ? number(check.tolerance, true) : 0.0;
+    VerificationCheck result = check.relative ? check_relative(what, measured, reference, tolerance)
+                                              : check_absolute(what, measured, reference, tolerance);
+    const bool beyond = check.kind == CaseCheck::Kind::at_least  ? measured >= reference
+                        : check.kind == CaseCheck::Kind::at_most ? measured <= reference
+                                                                 : false;
+    if (beyond) result.error = 0.0;
+    return result;
+  }
+
+  const SceneCase& chosen_;
+  const CaseVariant& variant_;
+  CaseResults results_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::vector<VerificationCheck> run_case(const SceneCase& chosen, const std::filesystem::path& kept,
+                                        Diagnostics& diagnostics) {
+  std::vector<VerificationCheck> checks;
+  for (const CaseVariant& variant : chosen.variants) {
+    const std::filesystem::path folder =
+        kept.empty() ? kept : kept / chosen.name / folder_name(variant.label);
+    std::optional<CaseResults> results = results_of(chosen, variant, folder, diagnostics);
+    if (!results) continue;
+    for (VerificationCheck& check :
+         CheckedVariant(chosen, variant, std::move(*results), diagnostics).checks())
+      checks.push_back(std::move(check));
+  }
+  if (!kept.empty())
+    std::filesystem::copy_file(chosen.scene, kept / chosen.name / chosen.scene.filename(),
+                               std::filesystem::copy_options::overwrite_existing);
+  return checks;
+}
+
+}  // namespace ashlar

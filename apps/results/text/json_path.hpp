@@ -1,0 +1,14 @@
+// Values in JSON by paths of keys with dots between, which keys and names may have, too.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace ashlar {
+
+/// The value at a path: "factor_of_safety.lower"; an entry of a list goes by one of its texts: "thrust.support.1.least".
+/// @return null if there is none
+[[nodiscard]] const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& place,
+                                                     std::string_view path);
+
+}  // namespace ashlar
