@@ -121,6 +121,12 @@ class CoreSimulation {
     return result;
   }
 
+  /// Text of history.units.json.
+  [[nodiscard]] std::string history_units() {
+    const std::unique_lock<std::mutex> access = wait();
+    return run_.column_units();
+  }
+
   [[nodiscard]] py::array_t<ContactRow> contacts() {
     const std::vector<ContactRow> rows = without_interpreter([](const Run& run) {
       std::vector<ContactRow> found;
@@ -318,6 +324,7 @@ void bind_simulation(py::module_& module) {
              return s.without_interpreter([](const Run& run) { return run.summary(); });
            })
       .def("history", &CoreSimulation::history)
+      .def("history_units", &CoreSimulation::history_units)
       .def("contacts", &CoreSimulation::contacts)
       .def("bolts", &CoreSimulation::bolts)
       .def("set_load_factor",

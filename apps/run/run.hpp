@@ -124,6 +124,8 @@ class Run {
 
   /// Names of the columns of history.csv.
   [[nodiscard]] std::vector<std::string> columns() const;
+  /// history.units.json: their units and meanings.
+  [[nodiscard]] std::string column_units() const;
   /// Rows for the start, once the run has begun, and for each step, with the values of columns().
   [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/results/columns/history_columns.hpp"
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/folder/run_summary.hpp"
@@ -75,7 +76,11 @@ void Run::set_load_factor(const std::string& name, int load, double factor) {
 }
 
 std::vector<std::string> Run::columns() const {
-  return history_columns(measures_, stage() > 0);
+  return names_of(history_columns(measures_, stage() > 0));
+}
+
+std::string Run::column_units() const {
+  return ashlar::column_units(history_columns(measures_, stage() > 0));
 }
 
 void Run::observe(std::shared_ptr<RunObserver> observer) {

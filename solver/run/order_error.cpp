@@ -85,11 +85,17 @@ TieForce tie_force(const Simulation& simulation, int index, const BlockModel& hi
     const int other = tied.a == index ? tied.b : tied.a;
     const BlockModel& block = simulation.blocks()[at(other)];
     const Eigen::MatrixX3d& there = simulation.states()[at(other)].position;
-    const Tie tie = tie_between(high.solid(), high.basis(), block.solid(), block.basis());
-    sum.force -= tied.stiffness * (tie.a.transpose() * (tie.a * position - tie.b * there));
+    // In the order in which the blocks were tied: the common area of faces that meet in an edge is rounding, and may be
+    // zero in the other order.
+    const bool first = tied.a == index;
+    const Tie tie = first ? tie_between(high.solid(), high.basis(), block.solid(), block.basis())
+                          : tie_between(block.solid(), block.basis(), high.solid(), high.basis());
+    const Eigen::MatrixXd &own = first ? tie.a : tie.b, &others = first ? tie.b : tie.a;
+    if (own.rows() == 0) continue;
+    sum.force -= tied.stiffness * (own.transpose() * (own * position - others * there));
     // The gap is a small difference of large places.
-    const double places = tie.a.norm() * position.norm() + tie.b.norm() * there.norm();
-    sum.rounding += tied.stiffness * tie.a.norm() * places * std::numeric_limits<double>::epsilon();
+    const double places = own.norm() * position.norm() + others.norm() * there.norm();
+    sum.rounding += tied.stiffness * own.norm() * places * std::numeric_limits<double>::epsilon();
   }
   return sum;
 }

@@ -68,13 +68,13 @@ class PictureTest(unittest.TestCase):
 
     def test_picture_of_a_study(self):
         out = Pages.folder / "study"
-        done = subprocess.run([Pages.program, "study", "subfaces", "--out", out], capture_output=True, text=True)
+        done = subprocess.run([Pages.program, "study", "orders", "--out", out], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(f"picture: {out / 'subfaces.png'}", done.stdout)
-        picture = Picture((out / "subfaces.png").read_bytes())
+        self.assertIn(f"picture: {out / 'orders.png'}", done.stdout)
+        picture = Picture((out / "orders.png").read_bytes())
         self.assertEqual((picture.width, picture.height), (1000, 600))
         self.assertEqual(picture.pixel(5, 5), (255, 255, 255))
-        # The curves of n = 2 and n = 3.
+        # The curves of the first two series.
         for colour in ((0x00, 0x72, 0xb2), (0xd5, 0x5e, 0x00)):
             self.assertGreater(picture.pixels(90, 50, 640, 530).count(colour), 100)
 

@@ -26,12 +26,18 @@ struct StudyResult {
 /// Receives a line for each measured value of a long study, as soon as it is known.
 using StudyProgress = std::function<void(const std::string& line)>;
 
-/// A study of the program; each is one file, x_study.{hpp,cpp}, and one line in study_command.cpp.
+/// A study of the program; each is one file, x_study.{hpp,cpp}, and one line in a list.
 struct Study {
   const char* name;
   const char* description;
   StudyResult (*run)(const StudyProgress& progress);
 };
+
+/// A study that ends soon and shows no progress.
+template <StudyResult (*Run)()>
+StudyResult without_progress(const StudyProgress&) {
+  return Run();
+}
 
 /// The table as CSV.
 [[nodiscard]] std::string table_csv(const StudyResult& result);

@@ -11,13 +11,8 @@
 #include <ostream>
 
 #include "apps/program/plot/plot_script.hpp"
-#include "apps/program/study/conditioning_study.hpp"
-#include "apps/program/study/contact_study.hpp"
-#include "apps/program/study/cost_study.hpp"
 #include "apps/program/study/error_time_study.hpp"
 #include "apps/program/study/orders_study.hpp"
-#include "apps/program/study/stability_study.hpp"
-#include "apps/program/study/sub_face_study.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/scene/model/nearest_name.hpp"
@@ -25,28 +20,7 @@
 namespace ashlar {
 namespace {
 
-/// A study that ends soon and shows no progress.
-template <StudyResult (*Run)()>
-StudyResult without_progress(const StudyProgress&) {
-  return Run();
-}
-
-// In the order of --help.
-const std::array<Study, 7> studies = {
-    {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
-      without_progress<study_sub_faces>},
-     {"orders", "error, unknowns and time of one block against its order", without_progress<study_orders>},
-     {"conditioning", "condition and lost digits of monomial and orthonormal bases",
-      without_progress<study_conditioning>},
-     {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps",
-      without_progress<study_contact>},
-     {"cost", "time and memory of a step against blocks and order, with exponents", study_cost},
-     {"error-time", "error of motion against run time: order, integrator, step, formulation",
-      without_progress<study_error_time>},
-     {"stability", "error far from ordinary orders, places, shapes, masses, stiffness, sizes and steps",
-      without_progress<study_stability>}}};
-
-std::vector<std::string> study_names() {
+std::vector<std::string> names_of(std::span<const Study> studies) {
   std::vector<std::string> list;
   list.reserve(studies.size());
   for (const Study& study : studies) list.emplace_back(study.name);
@@ -55,12 +29,22 @@ std::vector<std::string> study_names() {
 
 }  // namespace
 
-int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
-  const auto* study = std::find_if(studies.begin(), studies.end(),
-                                   [&](const Study& candidate) { return candidate.name == options.name; });
-  if (study == studies.end()) {
+std::span<const Study> studies() {
+  // In the order of --help.
+  static constexpr std::array<Study, 2> all = {
+      {{"orders", "error, unknowns and time of one block against its order", without_progress<study_orders>},
+       {"error-time", "error of motion against run time: order, integrator, step, formulation",
+        without_progress<study_error_time>}}};
+  return all;
+}
+
+int study_command(const StudyOptions& options, std::span<const Study> known, std::ostream& out,
+                  std::ostream& err) {
+  const auto study = std::find_if(known.begin(), known.end(),
+                                  [&](const Study& candidate) { return candidate.name == options.name; });
+  if (study == known.end()) {
     err << fmt::format("ashlar: error: unknown study ({}), {}one of {} is needed\n", options.name,
-                       guess(options.name, study_names()), fmt::join(study_names(), ", "));
+                       guess(options.name, names_of(known)), fmt::join(names_of(known), ", "));
     return exit_status::bad_input;
   }
   const std::filesystem::path folder = options.folder.value_or(options.name + ".study");
@@ -89,11 +73,11 @@ void declare_study_command(CLI::App& program, CommandContext& context) {
   // Shared with the callback that reads it.
   const auto options = std::make_shared<StudyOptions>();
   std::string list = "Study:";
-  for (const Study& study : studies) list += fmt::format("\n  {}: {}", study.name, study.description);
+  for (const Study& study : studies()) list += fmt::format("\n  {}: {}", study.name, study.description);
   command->add_option("NAME", options->name, list)->required()->type_name("");
   command->add_option("--out", options->folder, "Result folder (default: NAME.study)")->type_name("DIR");
   command->callback(
-      [options, &context] { context.status = study_command(*options, context.out, context.err); });
+      [options, &context] { context.status = study_command(*options, studies(), context.out, context.err); });
 }
 
 }  // namespace ashlar

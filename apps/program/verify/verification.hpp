@@ -57,46 +57,18 @@ class VerificationCase {
 
 /// Kinematics, integration, conservation.
 [[nodiscard]] std::span<const VerificationCase> kinematics_cases();
-/// One block, by order.
-[[nodiscard]] std::span<const VerificationCase> one_block_cases();
 /// Contact springs at rest.
 [[nodiscard]] std::span<const VerificationCase> contact_spring_cases();
-/// Friction on slopes.
-[[nodiscard]] std::span<const VerificationCase> slope_cases();
-/// Properties of joints besides friction.
-[[nodiscard]] std::span<const VerificationCase> joint_cases();
-/// Bonds with fracture energy, and ties that break.
-[[nodiscard]] std::span<const VerificationCase> bond_cases();
-/// Coefficients of restitution.
-[[nodiscard]] std::span<const VerificationCase> restitution_cases();
-/// Factors of safety.
-[[nodiscard]] std::span<const VerificationCase> safety_cases();
-/// Limit analysis.
-[[nodiscard]] std::span<const VerificationCase> limit_cases();
-/// Stacks, columns and arches.
-[[nodiscard]] std::span<const VerificationCase> stack_cases();
 /// Nonconvex solids.
 [[nodiscard]] std::span<const VerificationCase> non_convex_cases();
 /// Hertz's contact.
 [[nodiscard]] std::span<const VerificationCase> hertz_cases();
-/// Impacts, waves and rocking.
-[[nodiscard]] std::span<const VerificationCase> impact_cases();
-/// Moving supports.
-[[nodiscard]] std::span<const VerificationCase> support_cases();
-/// Water and stress in the ground.
-[[nodiscard]] std::span<const VerificationCase> ground_cases();
 /// Tunnels and wedges in their roofs.
 [[nodiscard]] std::span<const VerificationCase> tunnel_cases();
-/// Waves that leave and enter at boundaries.
-[[nodiscard]] std::span<const VerificationCase> boundary_cases();
 /// Records of earthquakes.
 [[nodiscard]] std::span<const VerificationCase> record_cases();
-/// Bolts and props.
-[[nodiscard]] std::span<const VerificationCase> bolt_cases();
 /// Rock cut by joints.
 [[nodiscard]] std::span<const VerificationCase> cutting_cases();
-/// Orders and steps chosen for an accuracy.
-[[nodiscard]] std::span<const VerificationCase> accuracy_cases();
 /// Cases that other programs have published.
 [[nodiscard]] std::span<const VerificationCase> peer_cases();
 /// The paper's example.

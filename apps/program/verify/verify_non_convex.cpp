@@ -1,4 +1,4 @@
-// Cases of nonconvex solids: landings in valleys, and interlocked rings.
+// Landings of blocks on nonconvex solids, from places that a search along the edges finds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -213,58 +213,9 @@ std::vector<VerificationCheck> non_convex_ground_case(const Placement& placement
   return checks;
 }
 
-/// A ring of 12 straight pieces with 8 sides, about the y axis: its inner corners are saddles.
-Polyhedron ring() {
-  constexpr int around = 12, sides = 8;
-  TriangleMesh mesh;
-  for (int i = 0; i < around; ++i) {
-    const double turn = 2.0 * std::numbers::pi * i / around;
-    for (int k = 0; k < sides; ++k) {
-      const double side = 2.0 * std::numbers::pi * k / sides;
-      const double radius = 1.0 + 0.25 * std::cos(side);
-      mesh.points.emplace_back(radius * std::cos(turn), 0.25 * std::sin(side), radius * std::sin(turn));
-    }
-  }
-  const auto at = [](int i, int k) { return (i % around) * sides + k % sides; };
-  for (int i = 0; i < around; ++i) {
-    for (int k = 0; k < sides; ++k) {
-      mesh.triangles.push_back({at(i, k), at(i, k + 1), at(i + 1, k)});
-      mesh.triangles.push_back({at(i + 1, k), at(i, k + 1), at(i + 1, k + 1)});
-    }
-  }
-  return Polyhedron(std::move(mesh), 1e-12);
-}
-
-Polyhedron moved(const Polyhedron& solid, const Eigen::AngleAxisd& turn, const Vector3& shift) {
-  std::vector<Vector3> points;
-  for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * point + shift);
-  return solid.with_points(std::move(points));
-}
-
-/// The upper ring is held, the lower one hangs in it, with saddle corners in contact.
-std::vector<VerificationCheck> hanging_ring_case(const Placement& placement) {
-  const Material rock{2500.0, 1e10, 0.2};
-  ContactScene scene(placement);
-  scene.add_fixed(ring());
-  const Polyhedron lower =
-      moved(ring(), Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitZ()), Vector3(0, 0, -1.5));
-  choose_as_for_statics(scene, std::cbrt(lower.volume()), rock.young_modulus, friction);
-  scene.add(define_block(lower, rock, 1));
-  Simulation simulation = scene.build();
-  std::vector<VerificationCheck> checks = {
-      check_status("hangs: equilibrium", simulation, StaticStatus::equilibrium)};
-  Vector3 force = Vector3::Zero();
-  for (const PairRecord& pair : simulation.contacts()) force -= force_on_a(pair);
-  const double weight = simulation.blocks()[1].mass() * 9.81;
-  checks.push_back(check_relative("contact force, N", placement.direction_back(force).z(), weight, 1e-6));
-  checks.push_back(check_absolute("true depth, m", simulation.deepest().depth, 0.0, 1e-3));
-  return checks;
-}
-
 constexpr VerificationCase non_convex[] = {
     {"non-convex-ground", "blocks land on slopes, grooves, pits and ridges of one mesh",
      non_convex_ground_case},
-    {"hanging-ring", "a ring hangs in another one, saddle corner on saddle corner", hanging_ring_case},
 };
 
 }  // namespace

@@ -30,21 +30,24 @@ using Json = nlohmann::ordered_json;
 // A plot is some thousand pixels wide at most.
 constexpr std::size_t most_history_rows = 2000;
 
+/// Null if there is none.
+Json json_file(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return nullptr;
+  return naming_the_file(path, [&] { return parse_json(whole_file(path)); });
+}
+
 /// The table column by column as floats, of at most most_history_rows rows.
 Json history_json(const std::filesystem::path& folder) {
   const HistoryTable table = read_history(folder / "history.csv", most_history_rows);
   PackedNumbers numbers;
   for (std::size_t column = 0; column < table.columns.size(); ++column)
     for (const auto& row : table.rows) numbers.add_float(row[column]);
-  return {{"columns", table.columns}, {"rows", table.rows.size()}, {"data", numbers.base64()}};
+  return {{"columns", table.columns},
+          {"about", json_file(folder / "history.units.json")},
+          {"rows", table.rows.size()},
+          {"data", numbers.base64()}};
 }
 
-/// Null if there is none.
-Json summary_json(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "summary.json";
-  if (!std::filesystem::exists(path)) return nullptr;
-  return naming_the_file(path, [&] { return parse_json(whole_file(path)); });
-}
 
 /// The type of the analysis; for a staged analysis "dynamic" if one of them is, otherwise that of the first. Null:
 /// unknown.
@@ -196,7 +199,7 @@ Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, c
                {"water_pressure", surface.water},
                {"few_points", most_few_points},
                {"history", history_json(folder)}};
-  Json summary = summary_json(folder);
+  Json summary = json_file(folder / "summary.json");
   move_scene(summary, reader.block_names(), reader.origin(), page);
   page["relative_to"] = relative_to(options.relative_to, summary, page["blocks"]);
   page["summary"] = std::move(summary);

@@ -91,7 +91,7 @@ class Scene:
 
     def to_dict(self):
         """The scene as used: every key, with defaults."""
-        return _json.loads(self._core.json())
+        return __json.loads(self._core.json())
 
     def simulation(self, threads=1, resume=None):
         """A simulation at its start. It passes through all stages of a staged analysis. The search of a scene that seeks a
@@ -209,7 +209,7 @@ class Simulation:
     def history(self):
         """The columns of history.csv by name: a History, numpy arrays with a value for the start and each step. Its `units`
         and to_pandas() name their units."""
-        return History(self._core.history())
+        return History(self._core.history(), _json.loads(self._core.history_units()))
 
     @property
     def blocks(self):
@@ -230,7 +230,7 @@ class Simulation:
     def summary(self):
         """The content of summary.json for the present state, a dictionary; after a search with factor_of_safety, load_factor
         or thrust. status is interrupted before the end of the run."""
-        return _json.loads(self._core.summary())
+        return __json.loads(self._core.summary())
 
     @property
     def error(self):

@@ -20,6 +20,8 @@ constexpr std::string_view marker_text = "This folder was made by ashlar; it kee
 
 /// Files of a run besides the folder `frames`.
 constexpr std::array run_files = {"history.csv",
+                                  "history.units.json",
+                                  "history.units.json.tmp",
                                   "contacts.csv",
                                   "blocks.pvd",
                                   "contacts.pvd",

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/results/columns/contact_columns.hpp"
+#include "apps/results/columns/history_columns.hpp"
 #include "apps/results/frames/bolt_frames.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/csv_text.hpp"
@@ -37,11 +39,6 @@ std::vector<std::string> series_of(const Scene& scene, const Simulation& simulat
   if (has_loads_or_supports(scene)) series.emplace_back("loads");
   return series;
 }
-
-constexpr const char* contact_columns =
-    "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,normal_force.x,"
-    "normal_force.y,"
-    "normal_force.z,shear_force.x,shear_force.y,shear_force.z,work\n";
 
 void note_peaks(const std::vector<double>& row, double time, std::vector<ColumnPeak>& peaks) {
   peaks.resize(row.size());
@@ -83,7 +80,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
       actions_(drawn_actions(scene, simulation.blocks())),
-      history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
+      history_(folder_ / "history.csv", names_of(history_columns(measures_, !scene.stage.empty()))),
       series_(series_of(scene, simulation)),
       precision_(frame_precision(output_, simulation.blocks(), model_origin_)),
       frames_(new_frame_files(folder_, output_.format, series_)),
@@ -93,7 +90,9 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   progress_.origin = place.origin;
   if (progress_.stage == 1 && scene.stage.front().reset_displacement)
     progress_.origin = origin_of(simulation, measures_, drawn_);
-  contact_rows_.write(contact_columns);
+  contact_rows_.write(contact_header());
+  write_file_atomically(folder_ / "history.units.json",
+                        column_units(history_columns(measures_, !scene.stage.empty())), Durability::process);
   add_step(simulation);
 }
 
@@ -107,7 +106,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       joint_surfaces_(joint_surfaces(simulation.blocks())),
       actions_(drawn_actions(scene, simulation.blocks())),
       history_(HistoryWriter::resume(folder_ / "history.csv",
-                                     history_columns(measures_, !scene.stage.empty()),
+                                     names_of(history_columns(measures_, !scene.stage.empty())),
                                      state.progress.last_row_step)),
       series_(series_of(scene, simulation)),
       precision_(frame_precision(output_, simulation.blocks(), model_origin_)),
@@ -177,12 +176,10 @@ bool ResultFolder::frame_is_due(const Simulation& simulation) const {
 
 std::vector<MeasurePeak> ResultFolder::peaks() const {
   std::vector<MeasurePeak> peaks;
-  const std::vector<std::string> columns = history_columns(measures_, progress_.stage > 0);
+  const std::vector<Column> columns = history_columns(measures_, progress_.stage > 0);
   // The first column, the step, is no value of a row.
   for (std::size_t k = 1; k < columns.size() && k <= progress_.peaks.size(); ++k)
-    if (std::any_of(measures_.begin(), measures_.end(),
-                    [&](const Measure& measure) { return columns[k].starts_with(measure.name + "."); }))
-      peaks.push_back({columns[k], progress_.peaks[k - 1]});
+    if (!columns[k].measure.empty()) peaks.push_back({columns[k].name, progress_.peaks[k - 1]});
   return peaks;
 }
 
@@ -218,7 +215,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
     set_precision(added, series, precision_);
   }
   const std::uintmax_t rows = contact_rows_.size();
-  add_contact_rows(simulation);
+  contact_rows_.write(contact_rows(simulation));
   try {
     // Checked before each file, when all of its bytes are ready: detects a folder replaced by another one.
     frames_->add({progress_.elapsed + simulation.time(), simulation.steps()}, std::move(grids), names,
@@ -228,32 +225,6 @@ void ResultFolder::add_frame(const Simulation& simulation) {
     throw;
   }
   progress_.last_frame_step = simulation.steps();
-}
-
-void ResultFolder::add_contact_rows(const Simulation& simulation) {
-  std::string rows;
-  for (const PairRecord& pair : simulation.contacts()) {
-    std::array<int, 3> count = {0, 0, 0};
-    double area = 0.0;
-    Vector3 normal = Vector3::Zero();
-    Vector3 shear = Vector3::Zero();
-    for (std::size_t k = 0; k < pair.points.size(); ++k) {
-      const ContactPoint& point = pair.points[k];
-      const PointResponse& response = pair.responses[k];
-      // A point that is open at the end may have transmitted force in the step.
-      if (response.state != ContactState::open) {
-        ++count[static_cast<std::size_t>(point.type)];
-        area += point.area;
-      }
-      normal += response.force[0] * point.normal;
-      shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
-    }
-    rows += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", simulation.steps(),
-                        simulation.time(), quote_csv_field(simulation.blocks()[at(pair.a)].name()),
-                        quote_csv_field(simulation.blocks()[at(pair.b)].name()), count[0], count[1], count[2],
-                        area, normal.x(), normal.y(), normal.z(), shear.x(), shear.y(), shear.z(), pair.work);
-  }
-  contact_rows_.write(rows);
 }
 
 }  // namespace ashlar

@@ -17,7 +17,6 @@
 #include "apps/results/frames/largest_values.hpp"
 #include "apps/results/frames/load_frames.hpp"
 #include "apps/results/frames/vtu_writer.hpp"
-#include "apps/results/tables/history_row.hpp"
 #include "apps/results/tables/history_writer.hpp"
 #include "apps/results/tables/measure.hpp"
 #include "apps/scene/model/scene.hpp"
@@ -118,7 +117,6 @@ class ResultFolder {
   void check_in_place() const;
   void add_row(const Simulation& simulation);
   void add_frame(const Simulation& simulation);
-  void add_contact_rows(const Simulation& simulation);
 
   std::filesystem::path folder_;
   SceneOutput output_;

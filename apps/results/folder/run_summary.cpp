@@ -246,7 +246,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
   if (!simulation.bolts().empty()) summary["support"] = support_summary(simulation);
   add_contact_tallies(summary, simulation);
-  summary["energy_refound"] = {{"gained", simulation.ledger().redetection_gained},
+  summary["energy_redetection"] = {{"gained", simulation.ledger().redetection_gained},
                                {"lost", simulation.ledger().redetection_lost}};
   summary["energy_residual"] = simulation.ledger().residual;
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();

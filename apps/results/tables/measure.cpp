@@ -55,7 +55,10 @@ std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockMode
     else
       measures.push_back({given.name, Measure::Kind::block, block, blocks[at(block)].basis().centroid(), -1});
   }
-  for (Measure& measure : measures) measure.origin = scene.origin;
+  for (Measure& measure : measures) {
+    measure.origin = scene.origin;
+    measure.up = up_of(scene);
+  }
   return measures;
 }
 

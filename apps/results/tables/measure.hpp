@@ -30,6 +30,7 @@ struct Measure {
   std::shared_ptr<const DriftLevels> levels = {};    ///< for a drift, otherwise null
   std::shared_ptr<const JointPolygons> joints = {};  ///< for cracks, otherwise null
   Vector3 origin = Vector3::Zero();                  ///< m, Scene::origin, of measured places
+  Vector3 up = Vector3::UnitZ();                     ///< unit vector against gravity
 };
 
 /// Measures of a scene, in its order. @param blocks of the scene

@@ -1,6 +1,7 @@
 #include "apps/results/text/json_path.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <string>
 
 namespace ashlar {
@@ -15,6 +16,15 @@ const Json* below(const Json& entry, std::string_view key, std::string_view path
   return value_at(entry, path.substr(std::min(key.size() + 1, path.size())));
 }
 
+/// The value below an entry of a list that goes by its number; null if the path does not begin with one.
+const Json* entry_at(const Json& list, std::string_view path) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), index);
+  const auto length = static_cast<std::size_t>(end - path.data());
+  if (error != std::errc{} || index >= list.size()) return nullptr;
+  return below(list[index], path.substr(0, length), path);
+}
+
 }  // namespace
 
 const Json* value_at(const Json& place, std::string_view path) {
@@ -22,6 +32,8 @@ const Json* value_at(const Json& place, std::string_view path) {
   if (place.is_object())
     for (const auto& [key, value] : place.items())
       if (const Json* found = below(value, key, path)) return found;
+  if (place.is_array())
+    if (const Json* found = entry_at(place, path)) return found;
   if (place.is_array())
     for (const Json& entry : place)
       if (entry.is_object())

@@ -261,9 +261,13 @@ void Formulas::check(const std::string& text) const {
 
 double Formulas::value(const std::string& text) const {
   check(text);
+  parser_->parser.SetExpr(text.substr(1));
+  return evaluated(text);
+}
+
+double Formulas::evaluated(const std::string& text) const {
   try {
     std::feclearexcept(FE_ALL_EXCEPT);
-    parser_->parser.SetExpr(text.substr(1));
     const double result = parser_->parser.Eval();
     const int raised = std::fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
     if (parser_->parser.GetNumResults() != 1)
@@ -284,20 +288,32 @@ double Formulas::value(const std::string& text) const {
   }
 }
 
-std::function<double(const Vector3&)> Formulas::of_place(const std::string& text) const {
+std::function<double(std::span<const double>)> Formulas::of_variables(
+    const std::string& text, const std::vector<std::string>& variables) const {
   const auto formulas = std::make_shared<Formulas>();
   for (const auto& [name, value] : parser_->values)
     if (!is_constant(name)) formulas->define(name, value);
   formulas->parser_->left_out = parser_->left_out;
-  for (const char* axis : {"x", "y", "z"}) formulas->define(axis, 0.0);
+  // The parser reads variables from here, and the text once.
+  std::vector<double*> places;
+  for (const std::string& name : variables) {
+    formulas->define(name, 0.0);
+    places.push_back(&formulas->parser_->values.at(name));
+  }
   formulas->check(text);
+  formulas->parser_->parser.SetExpr(text.substr(1));
   // Simulations of one scene may be built by several threads.
-  return [formulas, text, alone = std::make_shared<std::mutex>()](const Vector3& place) {
+  return [formulas, text, places = std::move(places),
+          alone = std::make_shared<std::mutex>()](std::span<const double> values) {
     const std::lock_guard<std::mutex> lock(*alone);
-    formulas->define("x", place.x());
-    formulas->define("y", place.y());
-    formulas->define("z", place.z());
-    return formulas->value(text);
+    for (std::size_t k = 0; k < places.size(); ++k) *places[k] = values[k];
+    return formulas->evaluated(text);
+  };
+}
+
+std::function<double(const Vector3&)> Formulas::of_place(const std::string& text) const {
+  return [formula = of_variables(text, {"x", "y", "z"})](const Vector3& place) {
+    return formula({place.data(), 3});
   };
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -61,6 +62,10 @@ class Formulas {
   /// division by zero or any other intermediate result that is not finite
   [[nodiscard]] double value(const std::string& text) const;
 
+  /// A formula of named variables, which hide parameters of these names: a function of their values, in the order of the
+  /// names. It throws FormulaError where the formula has no finite value. @throws FormulaError as value(), but for values
+  [[nodiscard]] std::function<double(std::span<const double>)> of_variables(
+      const std::string& text, const std::vector<std::string>& variables) const;
   /// A formula of a place, whose coordinates are x, y and z (m). They hide parameters of these names. The function throws
   /// FormulaError where the formula has no finite value. @throws FormulaError as value(), but for values
   [[nodiscard]] std::function<double(const Vector3&)> of_place(const std::string& text) const;
@@ -80,6 +85,8 @@ class Formulas {
 
  private:
   void check(const std::string& text) const;
+  /// The value of the text that the parser holds.
+  [[nodiscard]] double evaluated(const std::string& text) const;
 
   struct Parser;
   std::unique_ptr<Parser> parser_;

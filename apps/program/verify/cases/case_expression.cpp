@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "apps/results/text/json_path.hpp"
@@ -48,38 +50,74 @@ class Evaluation {
  public:
   Evaluation(const Formulas& names, const CaseResults& results) : names_(names), results_(results) {}
 
-  /// @param row whose values columns have
-  [[nodiscard]] double value(Part part, std::size_t row) const {
+  /// A function of a row, whose values columns have.
+  using OfRow = std::function<double(std::size_t)>;
+
+  [[nodiscard]] OfRow compiled(Part part) const {
     std::string formula = "= ";
-    bool known = true;
+    std::vector<OfRow> operands;
+    std::vector<std::string> variables;
     std::string_view rest = part.text;
     const auto here = [&] { return part.offset + static_cast<std::size_t>(rest.data() - part.text.data()); };
     while (!rest.empty()) {
-      const std::optional<std::pair<std::size_t, double>> operand = operand_at({rest, here()}, row);
-      if (operand) {
-        known = known && std::isfinite(operand->second);
-        formula += fmt::format("({:.17g})", known ? operand->second : 0.0);
-        rest.remove_prefix(operand->first);
+      std::size_t length = 0;
+      if (OfRow operand = operand_at({rest, here()}, length)) {
+        variables.push_back(fmt::format("result_{}", operands.size()));
+        formula += variables.back();
+        operands.push_back(std::move(operand));
+        rest.remove_prefix(length);
+        // A column alone needs no parser.
+        if (rest.empty() && formula == "= result_0") return operands.front();
         continue;
       }
-      std::size_t length = 1;
-      if (begins_name(rest.front()))
-        while (length < rest.size() && continues_name(rest[length])) ++length;
-      // Digits and an exponent, so that its letter does not begin a name.
-      else if (std::isdigit(static_cast<unsigned char>(rest.front())) != 0)
-        length = number_length(rest);
+      length = plain_length(rest);
       formula += rest.substr(0, length);
       rest.remove_prefix(length);
     }
-    if (!known) return no_value;
+    return of(std::move(operands), named_place(part, [&] { return names_.of_variables(formula, variables); }),
+              part);
+  }
+
+  [[nodiscard]] double value(Part part, std::size_t row) const { return compiled(part)(row); }
+
+ private:
+  [[nodiscard]] static OfRow constant(double number) {
+    return [number](std::size_t) { return number; };
+  }
+
+  [[nodiscard]] static OfRow of(std::vector<OfRow> operands,
+                                std::function<double(std::span<const double>)> formula, Part part) {
+    return [operands = std::move(operands), formula = std::move(formula), part](std::size_t row) {
+      std::vector<double> values;
+      for (const OfRow& operand : operands) {
+        values.push_back(operand(row));
+        if (!std::isfinite(values.back())) return no_value;
+      }
+      return named_place(part, [&] { return formula(values); });
+    };
+  }
+
+  /// Faults of `evaluate` have the place of the part.
+  template <class Evaluate>
+  static std::invoke_result_t<Evaluate> named_place(Part part, Evaluate evaluate) {
     try {
-      return names_.value(formula);
+      return evaluate();
     } catch (const FormulaError& error) {
       throw FormulaError(error.what(), part.offset);
     }
   }
 
- private:
+  /// Length of what is not a result at the start of a text: a name, a number or one character.
+  static std::size_t plain_length(std::string_view text) {
+    std::size_t length = 1;
+    if (begins_name(text.front())) {
+      while (length < text.size() && continues_name(text[length])) ++length;
+      return length;
+    }
+    // With its exponent, so that its letter does not begin a name.
+    return std::isdigit(static_cast<unsigned char>(text.front())) != 0 ? number_length(text) : 1;
+  }
+
   static std::size_t number_length(std::string_view text) {
     const auto digits = [&](std::size_t k) {
       while (k < text.size() && (std::isdigit(static_cast<unsigned char>(text[k])) != 0 || text[k] == '.'))
@@ -95,29 +133,33 @@ class Evaluation {
     return end;
   }
 
-  /// Length and value of a result at the start of a text. @return empty if none begins there
-  [[nodiscard]] std::optional<std::pair<std::size_t, double>> operand_at(Part part, std::size_t row) const {
+  /// The result at the start of a text, and its length. @return null if none begins there
+  [[nodiscard]] OfRow operand_at(Part part, std::size_t& length) const {
     const std::string_view text = part.text;
     if (text.front() == '\'') {
       const std::size_t end = text.find('\'', 1);
       if (end == std::string_view::npos)
         throw FormulaError("a quote is not closed, ' is needed", part.offset);
-      return std::pair{end + 1, result(text.substr(1, end - 1), part.offset, row)};
+      length = end + 1;
+      return result(text.substr(1, end - 1), part.offset);
     }
-    if (!begins_name(text.front())) return std::nullopt;
-    std::size_t length = 1;
+    if (!begins_name(text.front())) return nullptr;
+    length = 1;
     while (length < text.size() && continues_name(text[length])) ++length;
     const std::string_view name = text.substr(0, length);
     if (length < text.size() && text[length] == '(') {
-      if (!is_function(name)) return std::nullopt;
-      const std::size_t end = closing(part, length);
+      if (!is_function(name)) return nullptr;
+      const std::size_t open = length, end = closing(part, open);
+      length = end + 1;
       const std::vector<Part> arguments =
-          divided({text.substr(length + 1, end - length - 1), part.offset + length + 1});
-      return std::pair{end + 1, function(name, arguments, part.offset, row)};
+          divided({text.substr(open + 1, end - open - 1), part.offset + open + 1});
+      if (name == "before" && arguments.size() == 1)
+        return [e = compiled(arguments[0])](std::size_t row) { return row == 0 ? no_value : e(row - 1); };
+      return constant(function(name, arguments, part.offset));
     }
     const bool dotted = name.find('.') != std::string_view::npos;
-    if (!dotted && (names_.knows(std::string(name)) || !column(name))) return std::nullopt;
-    return std::pair{length, result(name, part.offset, row)};
+    if (!dotted && (names_.knows(std::string(name)) || !column(name))) return nullptr;
+    return result(name, part.offset);
   }
 
   [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const {
@@ -126,8 +168,13 @@ class Evaluation {
     return static_cast<std::size_t>(found - results_.columns.begin());
   }
 
-  [[nodiscard]] double result(std::string_view name, std::size_t offset, std::size_t row) const {
-    if (const auto index = column(name)) return results_.rows[row][*index];
+  [[nodiscard]] OfRow result(std::string_view name, std::size_t offset) const {
+    if (const auto index = column(name))
+      return [this, index = *index](std::size_t row) { return results_.rows[row][index]; };
+    return constant(number_of_summary(name, offset));
+  }
+
+  [[nodiscard]] double number_of_summary(std::string_view name, std::size_t offset) const {
     constexpr std::string_view prefix = "summary.";
     if (!name.starts_with(prefix))
       throw FormulaError(
@@ -144,10 +191,15 @@ class Evaluation {
     return value->get<double>();
   }
 
-  static bool is_function(std::string_view name) {
-    constexpr std::string_view all[] = {"first", "last", "largest",  "smallest", "mean",
-                                        "hann",  "at",   "crossing", "rising",   "middle"};
-    return std::find(std::begin(all), std::end(all), name) != std::end(all);
+  static bool is_function(std::string_view name) { return argument_counts().contains(name); }
+
+  /// Numbers of arguments that functions of results may have.
+  static const std::map<std::string_view, std::vector<std::size_t>, std::less<>>& argument_counts() {
+    static const std::map<std::string_view, std::vector<std::size_t>, std::less<>> all = {
+        {"first", {1}},   {"last", {1}},    {"largest", {1, 3}}, {"smallest", {1, 3}},
+        {"mean", {1, 3}}, {"hann", {1, 3}}, {"at", {2}},         {"crossing", {2}},
+        {"rising", {3}},  {"middle", {1}},  {"known", {1}},      {"before", {1}}};
+    return all;
   }
 
   /// @param open place of the bracket. @return that of the one that closes it
@@ -189,11 +241,12 @@ class Evaluation {
 
   [[nodiscard]] Series series(Part part, double from, double to) const {
     const std::size_t time = *column("time");
+    const OfRow expression = compiled(part);
     Series all;
     for (std::size_t row = 0; row < results_.rows.size(); ++row) {
       const double t = results_.rows[row][time];
       if (t < from || t > to) continue;
-      const double v = value(part, row);
+      const double v = expression(row);
       if (std::isnan(v)) continue;
       all.times.push_back(t);
       all.values.push_back(v);
@@ -238,9 +291,10 @@ class Evaluation {
   }
 
   [[nodiscard]] double rising(Part of, Part condition, int number) const {
+    const OfRow changes = compiled(condition);
     bool above = true;
     for (std::size_t row = 0; row < results_.rows.size(); ++row) {
-      const bool was = std::exchange(above, value(condition, row) > 0.0);
+      const bool was = std::exchange(above, changes(row) > 0.0);
       if (above && !was && --number == 0) return value(of, row);
     }
     return no_value;
@@ -248,25 +302,24 @@ class Evaluation {
 
   [[nodiscard]] double middle(Part part) const {
     const std::string name(part.text);
-    const auto end = [&](const char* key) { return result(name + key, part.offset, 0); };
+    const auto end = [&](const char* key) { return number_of_summary(name + key, part.offset); };
     if (name.starts_with("summary.") && value_at(results_.summary, name.substr(8) + ".lower") == nullptr)
       throw FormulaError(fmt::format("no bracket ({}), lower and upper are needed", name), part.offset);
     return std::sqrt(end(".lower") * end(".upper"));
   }
 
-  [[nodiscard]] double function(std::string_view name, std::span<const Part> arguments, std::size_t offset,
-                                std::size_t row) const {
-    static const std::map<std::string_view, std::vector<std::size_t>, std::less<>> counts = {
-        {"first", {1}},   {"last", {1}}, {"largest", {1, 3}}, {"smallest", {1, 3}}, {"mean", {1, 3}},
-        {"hann", {1, 3}}, {"at", {2}},   {"crossing", {2}},   {"rising", {3}},      {"middle", {1}}};
-    const std::vector<std::size_t>& allowed = counts.find(name)->second;
+  [[nodiscard]] double function(std::string_view name, std::span<const Part> arguments,
+                                std::size_t offset) const {
+    const std::vector<std::size_t>& allowed = argument_counts().find(name)->second;
     if (std::find(allowed.begin(), allowed.end(), arguments.size()) == allowed.end() || results_.rows.empty())
       throw FormulaError(
           fmt::format("{} has {} arguments, {} are needed", name, arguments.size(), allowed.back()), offset);
-    const auto number = [&](std::size_t k) { return value(arguments[k], row); };
+    const std::size_t last = results_.rows.size() - 1;
+    const auto number = [&](std::size_t k) { return value(arguments[k], last); };
     if (name == "middle") return middle(arguments[0]);
+    if (name == "known") return std::isnan(number(0)) ? 0.0 : 1.0;
     if (name == "first") return value(arguments[0], 0);
-    if (name == "last") return value(arguments[0], results_.rows.size() - 1);
+    if (name == "last") return value(arguments[0], last);
     if (name == "rising") return rising(arguments[0], arguments[1], static_cast<int>(number(2)));
     const bool windowed = arguments.size() == 3;
     constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 //   cube.uz, time            a column of history.csv: its last value
 //   'stone 1.uz'             the same, of a name with other characters
 //   summary.energy_max       a number of summary.json (json_path.hpp); true is 1, false 0, null none
+//   known(e)                 1 if the results in it have values, otherwise 0
 //   middle(summary.factor_of_safety)  geometric mean of `lower` and `upper` of a bracket
 // and functions over the rows of the history, of expressions in which columns are those of the row:
 //   first(e), last(e)        in the first and last row
@@ -12,6 +13,7 @@
 //   hann(e, from, to)        the same weighted by Hann's window, which removes oscillations of several periods
 //   at(e, t)                 at a time, linear between rows
 //   crossing(e, k)           time of the k-th change of sign, linear between rows
+//   before(e)                e in the row before
 //   rising(e, c, k)          e in the row in which c changes to above zero for the k-th time
 #pragma once
 

@@ -93,7 +93,8 @@ std::string toml_text(const toml::node& node) {
 
 /// What a variant is called: the last part of a path, and a text without quotes.
 std::string label_of(const Chosen& chosen) {
-  std::string value = toml_text(*chosen.value);
+  const bool number = chosen.value->is_number();
+  std::string value = number ? fmt::format("{:.6g}", number_in(*chosen.value)) : toml_text(*chosen.value);
   if (value.size() > 1 && (value.front() == '\'' || value.front() == '"'))
     value = value.substr(1, value.size() - 2);
   return chosen.key.substr(chosen.key.rfind('.') + 1) + " " + value;

@@ -4,43 +4,29 @@
 const CURVE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f", "#7f3c8d",
   "#8a8a00", "#a02c2c", "#5c5c5c"];
 
-const COLUMN_UNITS = [[/^time( of the run)?$|^dt$/, "s"], [/^energy\./, "J"], [/^momentum\./, "N s"], [/^angular_momentum\./, "N m s"],
-  [/\.(u?[xyz]|opening|slip)$|^penetration\./, "m"], [/\.v[xyz]$/, "m/s"], [/\.s(xx|yy|zz|xy|yz|xz)$/, "Pa"],
-  [/\.r[xyz]$/, "degrees"], [/_force$/, "N"], [/\.area$/, "m²"]];
-
-function unitOfColumn(name) {
-  const known = COLUMN_UNITS.find(([pattern]) => pattern.test(name));
-  return known ? known[1] : "";
-}
+/// What the run says of a column: {unit, measure, group, meaning}; results of earlier versions have no such file.
+const columnOf = (name) => (name === RUN_TIME ? {unit: "s"} : (data.history.about || {})[name] || {});
+const unitOfColumn = (name) => {
+  const {unit} = columnOf(name);
+  return !unit || unit === "1" ? "" : unit.replace("^2", "²");
+};
 
 /// name of a group: {unit, columns, change: true if differences from the first row are shown}; measures first.
 function plotGroups(columns) {
   const groups = {};
-  const add = (name, list, more = {}) => {
-    if (list.length > 0) groups[name] = {unit: unitOfColumn(list[0]), columns: list, ...more};
+  const add = (name, column) => {
+    if (!(name in groups)) groups[name] = {unit: unitOfColumn(column), columns: []};
+    groups[name].columns.push(column);
   };
-  const measures = new Set(columns.filter((name) => /\.(ux|normal_force)$/.test(name))
-    .map((name) => name.replace(/\.(ux|normal_force)$/, "")));
-  for (const measure of measures) {
-    const parts = (list) => list.map((part) => measure + "." + part).filter((name) => columns.includes(name));
-    add(measure + ": displacement", parts(["ux", "uy", "uz"]));
-    add(measure + ": position", parts(["x", "y", "z"]));
-    add(measure + ": velocity", parts(["vx", "vy", "vz"]));
-    add(measure + ": rotation", parts(["rx", "ry", "rz"]));
-    add(measure + ": stress", parts(STRESS_NAMES.map((name) => "s" + name)));
-    add(measure + ": forces", parts(["normal_force", "shear_force"]));
-    add(measure + ": opening and slip", parts(["opening", "slip"]));
-  }
-  const starting = (start) => columns.filter((name) => name.startsWith(start));
+  const grouped = columns.filter((name) => columnOf(name).group);
+  for (const name of grouped.filter((column) => columnOf(column).measure))
+    add(columnOf(name).measure + ": " + columnOf(name).group, name);
   // Most runs have no damping, many no loads: constant columns only crowd the plot.
   const changes = (name) => data.history.values[name].some((value, _, all) => value !== all[0]);
-  add("energies", starting("energy.").filter(changes), {change: true});
-  add("contacts", starting("contacts."), {unit: "points"});
-  add("step size", columns.filter((name) => name === "dt"));
-  add("penetration", starting("penetration."));
-  add("open-close iterations", starting("open_close."));
-  add("momentum", starting("momentum."));
-  add("angular momentum", starting("angular_momentum."));
+  for (const name of grouped.filter((column) => !columnOf(column).measure))
+    if (columnOf(name).group !== "energies" || changes(name)) add(columnOf(name).group, name);
+  if (groups.energies) groups.energies.change = true;
+  if (groups.contacts) groups.contacts.unit = "points";
   for (const column of columns) groups[column] = {unit: unitOfColumn(column), columns: [column], single: true};
   return groups;
 }

@@ -5,11 +5,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/program/study/conditioning_study.hpp"
 #include "apps/program/study/orders_study.hpp"
-#include "apps/program/study/stability_study.hpp"
 #include "apps/program/study/study.hpp"
-#include "apps/program/study/sub_face_study.hpp"
+#include "benchmarks/studies/conditioning_study.hpp"
+#include "benchmarks/studies/stability_study.hpp"
+#include "benchmarks/studies/studies.hpp"
+#include "benchmarks/studies/sub_face_study.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar::study_command_test {
@@ -17,7 +18,7 @@ namespace {
 
 TEST(StudyCommand, UnknownNamesAreRefused) {
   std::ostringstream out, err;
-  EXPECT_EQ(study_command({"subface", {}}, out, err), exit_status::bad_input);
+  EXPECT_EQ(study_command({"subface", {}}, developer_studies(), out, err), exit_status::bad_input);
   EXPECT_NE(err.str().find("did you mean subfaces?"), std::string::npos);
 }
 
@@ -25,7 +26,8 @@ TEST(StudyCommand, AFolderThatCannotBeMadeIsNamed) {
   const TemporaryFolder folder;
   write_text(folder / "file", "in the way");
   std::ostringstream out, err;
-  EXPECT_EQ(study_command({"conditioning", folder / "file"}, out, err), exit_status::bad_input);
+  EXPECT_EQ(study_command({"conditioning", folder / "file"}, developer_studies(), out, err),
+            exit_status::bad_input);
   EXPECT_EQ(err.str(), "ashlar: error: cannot create the result folder " + (folder / "file").string() +
                            ": Not a directory\n");
 }
@@ -33,7 +35,8 @@ TEST(StudyCommand, AFolderThatCannotBeMadeIsNamed) {
 TEST(StudyCommand, WritesTableAndPicture) {
   const TemporaryFolder folder;
   std::ostringstream out, err;
-  EXPECT_EQ(study_command({"subfaces", folder.path() / "s"}, out, err), exit_status::done);
+  EXPECT_EQ(study_command({"subfaces", folder.path() / "s"}, developer_studies(), out, err),
+            exit_status::done);
   std::ifstream table(folder.path() / "s" / "subfaces.csv");
   std::string line;
   ASSERT_TRUE(std::getline(table, line));

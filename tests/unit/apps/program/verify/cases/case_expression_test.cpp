@@ -21,7 +21,7 @@ CaseResults results() {
                  {"open", {{"lower", 4.0}, {"upper", nullptr}}},
                  {"right", true},
                  {"status", "moving"},
-                 {"bolts", {{{"name", "one"}, {"force", 7.0}}}}};
+                 {"bolts", {{{"name", "one"}, {"force", 7.0}, {"parts", {1.0, 2.0}}}}}};
   return all;
 }
 
@@ -51,6 +51,7 @@ TEST(CaseExpression, Rows) {
   // Zeros of a line between rows: 1 - 2 t is zero in the row at 0.5, cos(2 pi t) at 0.25 and 0.75.
   EXPECT_NEAR(value("crossing('a b.v', 1)"), 0.25, 1e-12);
   EXPECT_NEAR(value("crossing('a b.v', 2)"), 0.75, 1e-12);
+  EXPECT_NEAR(value("largest(time - before(time))"), 0.1, 1e-15);
   EXPECT_NEAR(value("rising(time, 'a b.v', 1)"), 0.8, 1e-12);
   EXPECT_TRUE(std::isnan(value("crossing('a b.v', 3)")));
 }
@@ -64,7 +65,9 @@ TEST(CaseExpression, RowsWithoutValueAreLeftOut) {
 TEST(CaseExpression, Summary) {
   EXPECT_DOUBLE_EQ(value("middle(summary.bracket)"), 6.0);
   EXPECT_TRUE(std::isnan(value("middle(summary.open)")));
+  EXPECT_EQ(value("known(summary.open.upper) + 2*known(summary.open.lower) + 4*known(h)"), 6.0);
   EXPECT_DOUBLE_EQ(value("summary.right + summary.bolts.one.force"), 8.0);
+  EXPECT_DOUBLE_EQ(value("summary.bolts.0.force - summary.bolts.one.parts.1"), 5.0);
 }
 
 TEST(CaseExpression, FaultsSayWhatIsNeeded) {
