@@ -8,6 +8,7 @@
     reference/commands.md   the help of each command, in the block after `<!-- ashlar NAME --help -->`
     reference/scene.md      the column `value`: what the reader accepts, in its own words. Keys that the page does not have
                             are appended to their table, to be described by hand; a unit test holds the column `default`
+    reference/results.md    the tables of columns, in the block after `<!-- columns: FILE -->`
     validation.md           the table of `ashlar verify`, with references and sources from verify_sources.toml. --check runs
                             the cases that take less than a second or two. Below it our numbers beside those of others
                             (peer_results.toml)
@@ -118,6 +119,42 @@ def with_values(program, text):
     return "\n".join(lines) + "\n"
 
 
+# The tables of columns of results.md.
+
+COLUMNS = re.compile(r"(<!-- columns: (\S+) -->\n).*?(<!-- end of columns -->)", re.DOTALL)
+OF_MEASURES = {"": "", "block": "of a measure of a block, at its centroid: ", "point": "of a measure of a point: ",
+               "pair": "of a measure of a pair: ", "bolt": "of a measure of a bolt or prop: ",
+               "drift": "of a measure of a drift: ", "crack": "of a measure of cracks: "}
+
+
+def column_rows(columns, start=""):
+    """A row for each unit and meaning."""
+    rows = {}
+    for column in columns:
+        rows.setdefault((column["unit"], column["meaning"]), []).append(f"`{column['name']}`")
+    return [f"| {', '.join(names)} | {unit} | {start}{meaning} |" for (unit, meaning), names in rows.items()]
+
+
+def with_columns(program, text):
+    schema = json.loads(output_of(program, "schema", "--results"))
+
+    def table(match):
+        name = match[2]
+        if name == "frames":
+            lines = ["| file | field | unit | meaning |", "|---|---|---|---|"]
+            for series, fields in schema["frames"].items():
+                rows = column_rows(fields)
+                lines += [f"| `{series}.pvd` {row}" if k == 0 else f"| {row}" for k, row in enumerate(rows)]
+        else:
+            lines = ["| column | unit | meaning |", "|---|---|---|"]
+            kinds = schema[name] if name == "history.csv" else {"": schema[name]}
+            for kind, columns in kinds.items():
+                lines += column_rows(columns, OF_MEASURES[kind])
+        return match[1] + "\n".join(lines) + "\n" + match[3]
+
+    return COLUMNS.sub(table, text)
+
+
 # The table of `ashlar verify`.
 
 def rounded(value):
@@ -141,24 +178,33 @@ def error(case):
     return "0" if worst["error"] == 0 else f"{rounded(worst['error'])} of {rounded(worst['tolerance'])}"
 
 
+def group_of(entry, sources):
+    """Folder of data/verification."""
+    return pathlib.Path(entry["scene"]).parent.name if "scene" in entry else sources["built_in"][entry["name"]]["group"]
+
+
 def validation_rows(cases, listed, sources, errors):
     """The table's lines; `errors` are those of the page where a case has not been run."""
-    lines, group = [], None
+    lines = []
     by_name = {case["name"]: case for case in cases}
-    for entry in listed:
-        name, source = entry["name"], sources[entry["name"]]
-        if source.get("group", group) != group:
-            group = source["group"]
-            lines += ["", f"### {group}", "", "| case | what | reference | source | tolerance | largest error |",
-                      "|---|---|---|---|---|---|"]
-        case = by_name.get(name)
-        rest = f"{tolerances(case)} | {error(case)}" if case else errors.get(name, "? | ?")
-        lines.append(f"| `{name}` | {entry['description']} | {source['reference']} | {source['source']} | {rest} |")
+    for group, heading in sources["groups"].items():
+        lines += ["", f"### {heading}", "", "| case | what | reference | source | tolerance | largest error |",
+                  "|---|---|---|---|---|---|"]
+        for entry in listed:
+            name = entry["name"]
+            if group_of(entry, sources) != group:
+                continue
+            about = entry if "scene" in entry else sources["built_in"][name]
+            scene = "/".join(pathlib.Path(entry.get("scene", "")).parts[-2:])
+            shown = f"[`{name}`](../../data/verification/{scene})" if scene else f"`{name}`"
+            case = by_name.get(name)
+            rest = f"{tolerances(case)} | {error(case)}" if case else errors.get(name, "? | ?")
+            lines.append(f"| {shown} | {entry['description']} | {about['reference']} | {about['source']} | {rest} |")
     return "\n".join(lines[1:]) + "\n"
 
 
 TABLE = re.compile(r"(<!-- ashlar verify -->\n)(.*?)(<!-- end -->)", re.DOTALL)
-ROW = re.compile(r"^\| `([^`]+)` \| .* \| ([^|]*) \| ([^|]*) \|$", re.MULTILINE)
+ROW = re.compile(r"^\| \[?`([^`]+)`[^|]* \| .* \| ([^|]*) \| ([^|]*) \|$", re.MULTILINE)
 
 
 def read_sources():
@@ -169,9 +215,12 @@ def with_verification(program, text, cases=None):
     """With all cases as they have been run, or without errors of a run: those of the page stay."""
     listed = json.loads(output_of(program, "verify", "--list", "--json"))
     sources = read_sources()
-    if {entry["name"] for entry in listed} != set(sources):
+    built_in = {entry["name"] for entry in listed if "scene" not in entry}
+    if built_in != set(sources["built_in"]):
         raise SystemExit("verify_sources.toml and `ashlar verify --list` differ: "
-                         f"{sorted({entry['name'] for entry in listed} ^ set(sources))}")
+                         f"{sorted(built_in ^ set(sources['built_in']))}")
+    if missing := {group_of(entry, sources) for entry in listed} - set(sources["groups"]):
+        raise SystemExit(f"verify_sources.toml has no group for {sorted(missing)}")
     errors = {name: f"{tolerance} | {found}" for name, tolerance, found in ROW.findall(TABLE.search(text)[2])}
     rows = validation_rows(cases or [], listed, sources, errors)
     return TABLE.sub(lambda match: f"{match[1]}\n{rows}\n{match[3]}", text)
@@ -179,7 +228,9 @@ def with_verification(program, text, cases=None):
 
 def changed_tolerances(program, text):
     """Quick cases that differ from the page, or fail."""
-    quick = [name for name, source in read_sources().items() if not source.get("slow")]
+    slow = read_sources()["slow"]["cases"]
+    listed = json.loads(output_of(program, "verify", "--list", "--json"))
+    quick = [entry["name"] for entry in listed if entry["name"] not in slow]
     page = {name: tolerance for name, tolerance, _ in ROW.findall(TABLE.search(text)[2])}
     for case in json.loads(output_of(program, "verify", "--json", *quick))["cases"]:
         if not case["passed"]:
@@ -263,6 +314,7 @@ def main(arguments):
     program = str(pathlib.Path(options.program).resolve())
     faults = []
     for name, write in (("reference/commands.md", with_help), ("reference/scene.md", with_values),
+                        ("reference/results.md", with_columns),
                         ("validation.md", with_validation)):
         page = DOCS / name
         old = page.read_text(encoding="utf-8")

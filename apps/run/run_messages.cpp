@@ -103,6 +103,18 @@ void warn_of_impacts(const Simulation& simulation, std::ostream& err) {
       impacts.time, impacts.residual, impacts.inaccurate, impacts.count);
 }
 
+/// Tells of impacts for which one coefficient of restitution is not enough.
+void warn_of_unlike_restitution(const Simulation& simulation, std::ostream& err) {
+  const ImpactTally& impacts = simulation.impacts();
+  if (impacts.unlike == 0) return;
+  err << fmt::format(
+      "ashlar: warning: {} of {} impacts closed joints of different restitution at the same moment, for "
+      "which there is no "
+      "common law: each joint rebounded by its own coefficient, by less where energy would have been "
+      "gained\n",
+      impacts.unlike, impacts.count);
+}
+
 /// Warns of dilating joints that slid without contact, and so without dilation.
 void warn_of_hops(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.02;
@@ -269,6 +281,7 @@ void tell_results(const Run& run, const std::filesystem::path& folder, bool quie
   warn_of_hops(simulation, err);
   warn_of_short_steps(simulation, err);
   warn_of_impacts(simulation, err);
+  warn_of_unlike_restitution(simulation, err);
   warn_of_turns(simulation, err);
   if (!is_static(run.whole().analysis)) warn_of_energy(simulation, err);
   warn_of_order(run, err);

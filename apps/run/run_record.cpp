@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/results/columns/history_columns.hpp"
+#include "apps/results/columns/summary_units.hpp"
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/folder/run_summary.hpp"
@@ -266,6 +267,7 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
   if (verdict_) summary["verdict"] = verdict_json(*verdict_, simulation());
   if (recorder_) recorder_->add_peaks(summary);
   add_origin(summary, whole().origin);
+  summary["units"] = summary_units(summary);
   return json_text(summary, 2) + "\n";
 }
 

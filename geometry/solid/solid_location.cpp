@@ -9,7 +9,8 @@ namespace ashlar {
 
 namespace {
 
-// By the parity of the crossings of the ray from p; empty if the ray meets an edge.
+// By the parity of the crossings of the ray from p; empty if the ray meets an edge. Triangles with p on them are not
+// crossed: the ray leaves them.
 std::optional<bool> is_inside_along(const TriangleMesh& solid, const Vector3& p, const Vector3& direction,
                                     PredicateLadder& ladder) {
   const ContactDirection ray = ContactDirection::along({&direction});
@@ -25,9 +26,11 @@ std::optional<bool> is_inside_along(const TriangleMesh& solid, const Vector3& p,
       if (left > 0 && right > 0) break;
     }
     if (left > 0 && right > 0) continue;
-    if (left + right < 3) return std::nullopt;
+    if (left + right == 0) return std::nullopt;
     // The triangle is ahead if its plane is: p is on the side of the plane that the ray leaves.
     const int below = -sign_volume(x, p, y, z, ladder);
+    if (below == 0) continue;
+    if (left + right < 3) return std::nullopt;
     if (below == (left > 0 ? 1 : -1)) inside = !inside;
   }
   return inside;

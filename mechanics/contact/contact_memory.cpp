@@ -25,8 +25,9 @@ double most_dilation_of(const std::vector<ContactMemory::Entry>& entries) {
   double most = 0.0;
   for (const ContactMemory::Entry& entry : entries) {
     most = std::max(most, entry.memory.dilation);
-    // A bond that softens transmits forces across its opening.
-    if (entry.memory.intact && entry.memory.damage > 0.0) most = std::max(most, -entry.memory.compression);
+    // A bond in tension transmits forces across its opening.
+    if (entry.memory.intact && entry.memory.state != ContactState::open)
+      most = std::max(most, -entry.memory.compression);
   }
   return most;
 }

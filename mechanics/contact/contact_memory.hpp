@@ -93,7 +93,7 @@ class ContactMemory {
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
-  /// Largest separation of the surfaces by dilation or at a softened bond, m, >= 0: blocks touch across such gaps.
+  /// Largest separation of the surfaces by dilation or at a bond in tension, m, >= 0: blocks touch across such gaps.
   [[nodiscard]] double most_dilation() const { return most_dilation_; }
   /// Possible additional depth between the points, m, >= 0.
   [[nodiscard]] double bulge() const { return bulge_; }

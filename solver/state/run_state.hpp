@@ -119,6 +119,7 @@ struct DilatingSlip {
 struct ImpactTally {
   std::uint64_t count = 0;
   std::uint64_t inaccurate = 0;  ///< whose residual exceeds impact_accuracy
+  std::uint64_t unlike = 0;      ///< of joints with different coefficients of restitution at one moment
   double residual = 0.0;         ///< largest, of the fastest velocity of an impact
   double time = 0.0;             ///< s, of the largest
 };

@@ -70,8 +70,7 @@ class Path {
     settle_at(placement_);
     const RigidModel first = *model_;
     take_steps(search);
-    if (const auto ahead = predict(std::min(search.tolerance, lengths_.longest_step)))
-      path_.places.push_back({moved(), ahead->thrust});
+    note_last_place(std::min(search.tolerance, lengths_.longest_step));
     note_joints(first);
     finish();
     return std::move(path_);
@@ -84,6 +83,21 @@ class Path {
   };
 
   [[nodiscard]] double moved() const { return std::abs(placement_.moved); }
+
+  /// Records the thrust and the forces of the last placement. Rounding may leave those of a short step undetermined: longer
+  /// ones are tried. @param step m
+  void note_last_place(double step) {
+    constexpr double longer = 4.0;
+    std::optional<Prediction> ahead = predict(step);
+    while (!ahead && failed_ == StepEnd::undetermined && step < lengths_.longest_step) {
+      step = std::min(longer * step, lengths_.longest_step);
+      ahead = predict(step);
+    }
+    if (ahead)
+      path_.places.push_back({moved(), ahead->thrust});
+    else
+      force_.clear();  // of an earlier placement
+  }
 
   /// Moves from equilibrium to equilibrium until the search ends.
   void take_steps(const MovementSearch& search) {

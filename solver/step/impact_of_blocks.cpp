@@ -75,12 +75,11 @@ bool ImpactOfBlocks::find() {
     touching.push_back(touching_pair(n, meets));
     indices.push_back(n);
   }
-  bool any = false;
-  for (const TouchingPoints& pair : pairs_of_run(system_, touching)) {
-    join(pair);
-    any = any || pair.meets;
-  }
-  if (!any) return false;
+  const std::vector<TouchingPoints> of_run = pairs_of_run(system_, touching);
+  for (const TouchingPoints& pair : of_run) join(pair);
+  if (std::none_of(of_run.begin(), of_run.end(), [](const TouchingPoints& pair) { return pair.meets; }))
+    return false;
+  note_unlike(of_run);
   std::vector<TouchingPoints> struck;
   for (std::size_t k = 0; k < touching.size(); ++k) {
     if (!meets_[group_of(touching[k])]) continue;
@@ -91,10 +90,21 @@ bool ImpactOfBlocks::find() {
   return !points_.empty();
 }
 
+void ImpactOfBlocks::note_unlike(const std::vector<TouchingPoints>& touching) {
+  std::map<std::size_t, double> first;  // by group
+  unlike_ = false;
+  for (const TouchingPoints& pair : touching) {
+    if (!pair.meets) continue;
+    const auto [entry, is_new] = first.emplace(group_of(pair), pair.restitution);
+    unlike_ = unlike_ || entry->second != pair.restitution;
+  }
+}
+
 void ImpactOfBlocks::apply() {
   const ImpactResult result = solve_impact(inertia_, sizes_, points_);
   ImpactTally& tally = state_.extremes.impacts;
   ++tally.count;
+  if (unlike_) ++tally.unlike;
   if (result.residual > impact_accuracy) ++tally.inaccurate;
   if (result.residual > tally.residual) {
     tally.residual = result.residual;
@@ -171,7 +181,7 @@ bool ImpactOfBlocks::note_touching(std::size_t n) {
 
 TouchingPoints ImpactOfBlocks::touching_pair(std::size_t n, bool meets) {
   const ContactPair& pair = pairs_[n];
-  TouchingPoints touching{{pair.a(), pair.b()}, pair.tied(), meets};
+  TouchingPoints touching{{pair.a(), pair.b()}, pair.tied(), meets, pair.restitution().value_or(0.0)};
   for (std::size_t side = 0; side < 2; ++side) {
     const int block = touching.blocks[side];
     if (!motions_.moves(block)) continue;

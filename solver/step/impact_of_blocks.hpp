@@ -21,6 +21,7 @@ struct TouchingPoints {
   PairKey blocks = {-1, -1};
   bool tied = false;
   bool meets = false;                          ///< fast enough for an impact
+  double restitution = 0.0;                    ///< of the joint, 0 to 1
   std::array<int, 2> moves = {0, 0};           ///< 1: of the blocks
   std::array<int, 2> modes = {0, 0};           ///< number of their rigid motions
   std::array<double, 2> inertia = {0.0, 0.0};  ///< density, kg/m^3
@@ -57,6 +58,8 @@ class ImpactOfBlocks {
   bool note_touching(std::size_t n);
   /// Joins the groups of two blocks.
   void join(const TouchingPoints& touching);
+  /// Notes whether the joints of one impact have different coefficients of restitution.
+  void note_unlike(const std::vector<TouchingPoints>& touching);
   /// A pair without its points.
   [[nodiscard]] TouchingPoints touching_pair(std::size_t n, bool meets);
   /// Motion of each point by each rigid mode of one block of a pair. @return by point, (3, modes)
@@ -75,6 +78,7 @@ class ImpactOfBlocks {
   UnionFind bonded_;         ///< blocks that bonds hold together, and the ground behind them
   UnionFind group_;          ///< moving blocks that touch, directly or not
   std::vector<bool> meets_;  ///< by first block of a group
+  bool unlike_ = false;      ///< joints of one impact have different restitution
   std::vector<std::vector<PointTarget>> targets_;  ///< by pair
   std::map<int, int> bodies_;                      ///< by block
   std::vector<double> inertia_;

@@ -39,7 +39,7 @@ FAMILIES = [re.compile(pattern) for pattern in (
 # Rounding decides the state of a point at a limit.
 STATES = re.compile(r"contacts\.(open|locked|sliding)$|open_close\.iterations$")
 # Energy against gravity and angular momentum are about the origin of the model.
-ABOUT_ORIGIN = re.compile(r"energy\.gravity|angular_momentum\.[xyz]|energy\.(residual|numerical|refound_.*)$")
+ABOUT_ORIGIN = re.compile(r"energy\.gravity|angular_momentum\.[xyz]|energy\.(residual|numerical|redetection_.*)$")
 
 
 class Mover:

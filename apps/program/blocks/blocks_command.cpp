@@ -67,7 +67,8 @@ std::vector<KeyGroup> mechanisms_of(const BlocksOptions& options, const BlockRep
                                     const RemovableSearch& search, std::ostream& err, int& status) {
   if (options.mechanisms == 0) return {};
   try {
-    return find_mechanisms(report.loaded(), search, options.mechanisms);
+    Preparation progress(false, err);
+    return find_mechanisms(report.loaded(), search, options.mechanisms, progress);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 #include "apps/run/run_setup.hpp"
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
+#include "apps/scene/model/preparation.hpp"
 #include "apps/scene/read/analysis_json.hpp"
 #include "geometry/index.hpp"
 
@@ -38,7 +39,8 @@ std::string names_of(const Scene& scene, const KeyGroup& group) {
 
 }  // namespace
 
-std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const RemovableSearch& search, int most) {
+std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const RemovableSearch& search, int most,
+                                      Preparation& progress) {
   LoadedScene turned = loaded;
   SceneAnalysis& analysis = turned.scene.analysis;
   if (analysis.gravity.norm() > 0.0) analysis.gravity = analysis.gravity.norm() * search.force.normalized();
@@ -53,15 +55,21 @@ std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const Removable
   wanted.factors = {analysis.safety.lower, analysis.safety.upper, analysis.safety.tolerance};
   wanted.wanted = search.wanted;
   wanted.most = most;
+  wanted.goes_on = [&progress, analyses = 0]() mutable {
+    progress.phase(fmt::format("mechanisms, limit analysis {}", ++analyses));
+    return true;
+  };
   return key_groups(model, reduced, wanted);
 }
 
 std::string mechanisms_text(const BlockReport& report, const std::vector<KeyGroup>& groups) {
   const Scene& scene = report.loaded().scene;
   std::string text = fmt::format(
-      "{} mechanisms by limit analysis, each with those before it held\n"
-      "volume, m^3   factor               force, kN   centroid, m                blocks\n",
-      groups.size());
+      "{} mechanisms by limit analysis up to a factor of {:.4g} (analysis.safety.upper), each with those "
+      "before it held\n",
+      groups.size(), scene.analysis.safety.upper);
+  if (!groups.empty())
+    text += "volume, m^3   factor               force, kN   centroid, m                blocks\n";
   for (const KeyGroup& group : groups) {
     const Vector3 at = place_of(report, group);
     const std::string factor = group.lower ? fmt::format("{:.4g} to {:.4g}", *group.lower, group.upper)

@@ -11,11 +11,14 @@
 
 namespace ashlar {
 
+class Preparation;
+
 /// @param search its force replaces the direction of gravity, and its wanted factor is that of the needed forces
 /// @param most groups. @return by increasing factor, up to the largest of the scene's analysis.safety
+/// @param progress receives the present analysis
 /// @throws std::exception if the scene cannot be built, or has no limit analysis
 [[nodiscard]] std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const RemovableSearch& search,
-                                                    int most);
+                                                    int most, Preparation& progress);
 
 /// A row a group: blocks, volume, factor, needed force, mode.
 [[nodiscard]] std::string mechanisms_text(const BlockReport& report, const std::vector<KeyGroup>& groups);

@@ -193,7 +193,7 @@ class ErrorTimeCurves {
   int problem_ = 0;
 };
 
-enum Column : std::size_t {
+enum TableColumn : std::size_t {
   of_problem,
   of_curve,
   of_order,

@@ -1,22 +1,12 @@
 // Verification scenes rotated and translated as a whole: results must transform likewise.
 #pragma once
 
+#include "apps/scene/model/scene_placement.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {
 
-/// Placement of a scene: x -> turn x + shift for places, turn v for directions.
-struct Placement {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< a rotation
-  Vector3 shift = Vector3::Zero();                     ///< m
-
-  [[nodiscard]] Vector3 point(const Vector3& x) const { return turn * x + shift; }
-  [[nodiscard]] Vector3 direction(const Vector3& v) const { return turn * v; }
-  /// The inverse of point(): places of a placed scene in the scene's own axes.
-  [[nodiscard]] Vector3 point_back(const Vector3& x) const { return turn.transpose() * (x - shift); }
-  /// The inverse of direction().
-  [[nodiscard]] Vector3 direction_back(const Vector3& v) const { return turn.transpose() * v; }
-};
+using Placement = ScenePlacement;
 
 /// A general placement: rotation of 0.8 rad about (1, 2, 3), translation by (12, -30, 5).
 [[nodiscard]] Placement some_placement();

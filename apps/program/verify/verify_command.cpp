@@ -73,7 +73,7 @@ struct CaseOutcome {
 };
 
 /// A check that has failed for a reason.
-VerificationCheck not_run(std::string reason) {
+VerificationCheck failed_check(std::string reason) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {std::move(reason), nan, nan, nan, 0.0};
 }
@@ -85,7 +85,7 @@ CaseOutcome run(const ListedCase& chosen, const std::filesystem::path& kept, Dia
     outcome.checks =
         chosen.scene != nullptr ? run_case(*chosen.scene, kept, diagnostics) : chosen.built_in->run();
   } catch (const std::exception& error) {
-    outcome.checks = {not_run(fmt::format("could not be run: {}", fault_text(error)))};
+    outcome.checks = {failed_check(fmt::format("could not be run: {}", fault_text(error)))};
   }
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
@@ -127,6 +127,7 @@ void list_cases(const std::vector<ListedCase>& all, bool as_json, std::ostream& 
     nlohmann::ordered_json entry = {{"name", listed.name}, {"description", listed.description}};
     if (listed.scene != nullptr) {
       entry["reference"] = listed.scene->reference;
+      entry["source"] = listed.scene->source;
       entry["scene"] = listed.scene->scene.string();
     }
     list.push_back(std::move(entry));
@@ -145,7 +146,7 @@ int run_all(const std::vector<ListedCase>& cases, const VerifyOptions& options, 
     CaseOutcome outcome = run(chosen, options.kept, faults);
     faults.print(err);
     evaluated = evaluated && faults.good();
-    if (!faults.good()) outcome.checks.push_back(not_run("could not be evaluated"));
+    if (!faults.good()) outcome.checks.push_back(failed_check("could not be evaluated"));
     if (!outcome.passed()) ++failed;
     if (options.json)
       list.push_back(to_json(outcome));

@@ -1,4 +1,4 @@
-// Stress and displacement around a tunnel, under tractions that vary over the outer faces, which scenes do not have.
+// Stress and displacement around a tunnel in rings of sectors, whose corners are made by code.
 #include <fmt/format.h>
 
 #include <array>

@@ -19,7 +19,7 @@ struct Sums {
 
 }  // namespace
 
-std::vector<JointResultant> joint_resultants(const UnstructuredGrid& contacts) {
+std::vector<FrameResultant> joint_resultants(const UnstructuredGrid& contacts) {
   const auto& data = contacts.point_data;
   const auto& force = required_values<double>(data, "force", 3);
   const auto& normal = required_values<double>(data, "normal", 3);
@@ -40,7 +40,7 @@ std::vector<JointResultant> joint_resultants(const UnstructuredGrid& contacts) {
     sums.pressed += pressing * contacts.points[i];
     sums.of_state.at(static_cast<std::size_t>(std::clamp(state[i], 0, 2))) += size;
   }
-  std::vector<JointResultant> resultants;
+  std::vector<FrameResultant> resultants;
   for (const auto& [blocks, sums] : pairs) {
     const Vector3 place =
         sums.pressing > 0.0 ? Vector3(sums.pressed / sums.pressing) : Vector3(sums.moved / sums.size);

@@ -9,7 +9,7 @@
 namespace ashlar {
 
 /// Resultant of a pair of blocks with closed contact points.
-struct JointResultant {
+struct FrameResultant {
   std::int32_t a, b;  ///< numbers of the blocks
   Vector3 force;      ///< N, on a; its opposite acts on b
   Vector3
@@ -20,6 +20,6 @@ struct JointResultant {
 
 /// @param contacts a frame of contacts.pvd. @return by a, then b; pairs without force are omitted
 /// @throws std::runtime_error if an array is missing or of another kind
-[[nodiscard]] std::vector<JointResultant> joint_resultants(const UnstructuredGrid& contacts);
+[[nodiscard]] std::vector<FrameResultant> joint_resultants(const UnstructuredGrid& contacts);
 
 }  // namespace ashlar

@@ -120,11 +120,11 @@ void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, bool wate
 }
 
 void pack_links(PackedNumbers& numbers, const UnstructuredGrid& contacts, Json& head) {
-  const std::vector<JointResultant> resultants = joint_resultants(contacts);
+  const std::vector<FrameResultant> resultants = joint_resultants(contacts);
   std::vector<std::int32_t> a, b, state;
   std::vector<double> forces;
   std::vector<Vector3> places;
-  for (const JointResultant& joint : resultants) {
+  for (const FrameResultant& joint : resultants) {
     a.push_back(joint.a);
     b.push_back(joint.b);
     state.push_back(joint.state);

@@ -46,38 +46,49 @@ struct TextColumn {
   const char* unit;
   const char* meaning;
   std::string (*text)(const ContactRow&);
+  const char* component = "";
 };
 
-using Row = ContactRow;
 constexpr const char* closed_points = "closed contact points by type";
 constexpr const char* normal_sum =
     "sum of the normal forces **on block_a**, in the axes of the scene; block_b has the opposite";
 constexpr const char* shear_sum = "the same of friction and shear springs";
 constexpr TextColumn columns[] = {
-    {"step", "1", "of the frame", [](const Row& r) { return fmt::format("{}", r.simulation.steps()); }},
-    {"time", "s", "of the frame", [](const Row& r) { return fmt::format("{}", r.simulation.time()); }},
+    {"step", "1", "of the frame",
+     [](const ContactRow& r) { return fmt::format("{}", r.simulation.steps()); }},
+    {"time", "s", "of the frame", [](const ContactRow& r) { return fmt::format("{}", r.simulation.time()); }},
     {"block_a", "1", "name of the block that stands first in the scene",
-     [](const Row& r) { return block_name(r, r.pair.a); }},
-    {"block_b", "1", "name of the other one", [](const Row& r) { return block_name(r, r.pair.b); }},
-    {"points.face_face", "1", closed_points, [](const Row& r) { return fmt::format("{}", r.closed[0]); }},
-    {"points.vertex_face", "1", closed_points, [](const Row& r) { return fmt::format("{}", r.closed[1]); }},
-    {"points.edge_edge", "1", closed_points, [](const Row& r) { return fmt::format("{}", r.closed[2]); }},
-    {"area", "m^2", "of these points", [](const Row& r) { return fmt::format("{}", r.area); }},
-    {"normal_force.x", "N", normal_sum, [](const Row& r) { return fmt::format("{}", r.normal.x()); }},
-    {"normal_force.y", "N", normal_sum, [](const Row& r) { return fmt::format("{}", r.normal.y()); }},
-    {"normal_force.z", "N", normal_sum, [](const Row& r) { return fmt::format("{}", r.normal.z()); }},
-    {"shear_force.x", "N", shear_sum, [](const Row& r) { return fmt::format("{}", r.shear.x()); }},
-    {"shear_force.y", "N", shear_sum, [](const Row& r) { return fmt::format("{}", r.shear.y()); }},
-    {"shear_force.z", "N", shear_sum, [](const Row& r) { return fmt::format("{}", r.shear.z()); }},
+     [](const ContactRow& r) { return block_name(r, r.pair.a); }},
+    {"block_b", "1", "name of the other one", [](const ContactRow& r) { return block_name(r, r.pair.b); }},
+    {"points.face_face", "1", closed_points,
+     [](const ContactRow& r) { return fmt::format("{}", r.closed[0]); }},
+    {"points.vertex_face", "1", closed_points,
+     [](const ContactRow& r) { return fmt::format("{}", r.closed[1]); }},
+    {"points.edge_edge", "1", closed_points,
+     [](const ContactRow& r) { return fmt::format("{}", r.closed[2]); }},
+    {"area", "m^2", "of these points", [](const ContactRow& r) { return fmt::format("{}", r.area); }},
+    {"normal_force.x", "N", normal_sum, [](const ContactRow& r) { return fmt::format("{}", r.normal.x()); },
+     "x"},
+    {"normal_force.y", "N", normal_sum, [](const ContactRow& r) { return fmt::format("{}", r.normal.y()); },
+     "y"},
+    {"normal_force.z", "N", normal_sum, [](const ContactRow& r) { return fmt::format("{}", r.normal.z()); },
+     "z"},
+    {"shear_force.x", "N", shear_sum, [](const ContactRow& r) { return fmt::format("{}", r.shear.x()); },
+     "x"},
+    {"shear_force.y", "N", shear_sum, [](const ContactRow& r) { return fmt::format("{}", r.shear.y()); },
+     "y"},
+    {"shear_force.z", "N", shear_sum, [](const ContactRow& r) { return fmt::format("{}", r.shear.z()); },
+     "z"},
     {"work", "J", "of the contact forces on both blocks since the start",
-     [](const Row& r) { return fmt::format("{}", r.pair.work); }},
+     [](const ContactRow& r) { return fmt::format("{}", r.pair.work); }},
 };
 
 }  // namespace
 
 std::vector<Column> contact_columns() {
   std::vector<Column> all;
-  for (const TextColumn& column : columns) all.push_back({column.name, column.unit, "", column.meaning, ""});
+  for (const TextColumn& column : columns)
+    all.push_back({column.name, column.unit, "", column.meaning, "", column.component});
   return all;
 }
 

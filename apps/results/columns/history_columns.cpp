@@ -36,33 +36,33 @@ struct RunRow {
 
 using P = MeasuredPoint;
 constexpr ColumnOf<P> point_columns[] = {
-    {"x", "m", "position", "position of the point", [](const P& p) { return p.motion.place.x(); }},
-    {"y", "m", "position", "position of the point", [](const P& p) { return p.motion.place.y(); }},
-    {"z", "m", "position", "position of the point", [](const P& p) { return p.motion.place.z(); }},
-    {"ux", "m", "displacement", "displacement since placement",
-     [](const P& p) { return p.displacement.x(); }},
-    {"uy", "m", "displacement", "displacement since placement",
-     [](const P& p) { return p.displacement.y(); }},
-    {"uz", "m", "displacement", "displacement since placement",
-     [](const P& p) { return p.displacement.z(); }},
-    {"vx", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.x(); }},
-    {"vy", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.y(); }},
-    {"vz", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.z(); }},
+    {"x", "m", "position", "position of the point", [](const P& p) { return p.motion.place.x(); }, "x"},
+    {"y", "m", "position", "position of the point", [](const P& p) { return p.motion.place.y(); }, "y"},
+    {"z", "m", "position", "position of the point", [](const P& p) { return p.motion.place.z(); }, "z"},
+    {"ux", "m", "displacement", "displacement since placement", [](const P& p) { return p.displacement.x(); },
+     "x"},
+    {"uy", "m", "displacement", "displacement since placement", [](const P& p) { return p.displacement.y(); },
+     "y"},
+    {"uz", "m", "displacement", "displacement since placement", [](const P& p) { return p.displacement.z(); },
+     "z"},
+    {"vx", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.x(); }, "x"},
+    {"vy", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.y(); }, "y"},
+    {"vz", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.z(); }, "z"},
 };
 constexpr const char* rotation = "rotation since placement, axis times angle, up to 180";
 constexpr ColumnOf<P> turn_columns[] = {
-    {"rx", "degrees", "rotation", rotation, [](const P& p) { return p.turn.x(); }},
-    {"ry", "degrees", "rotation", rotation, [](const P& p) { return p.turn.y(); }},
-    {"rz", "degrees", "rotation", rotation, [](const P& p) { return p.turn.z(); }},
+    {"rx", "degrees", "rotation", rotation, [](const P& p) { return p.turn.x(); }, "x"},
+    {"ry", "degrees", "rotation", rotation, [](const P& p) { return p.turn.y(); }, "y"},
+    {"rz", "degrees", "rotation", rotation, [](const P& p) { return p.turn.z(); }, "z"},
 };
 constexpr const char* cauchy = "Cauchy stress, tension positive";
 constexpr ColumnOf<P> stress_columns[] = {
-    {"sxx", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(0, 0); }},
-    {"syy", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(1, 1); }},
-    {"szz", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(2, 2); }},
-    {"sxy", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(0, 1); }},
-    {"syz", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(1, 2); }},
-    {"sxz", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(0, 2); }},
+    {"sxx", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(0, 0); }, "xx"},
+    {"syy", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(1, 1); }, "yy"},
+    {"szz", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(2, 2); }, "zz"},
+    {"sxy", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(0, 1); }, "xy"},
+    {"syz", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(1, 2); }, "yz"},
+    {"sxz", "Pa", "stress", cauchy, [](const P& p) { return p.motion.stress(0, 2); }, "xz"},
 };
 constexpr ColumnOf<P> speed_columns[] = {
     {"speed", "m/s", "speed", "length of the velocity", [](const P& p) { return p.motion.velocity.norm(); }},
@@ -105,9 +105,9 @@ constexpr ColumnOf<MeasuredDrift> drift_columns[] = {
      "level has no "
      "block)",
      [](const MeasuredDrift& level) { return level.drift.norm(); }},
-    {"drift_x", "1", "drift", drift_part, [](const MeasuredDrift& level) { return level.drift.x(); }},
-    {"drift_y", "1", "drift", drift_part, [](const MeasuredDrift& level) { return level.drift.y(); }},
-    {"drift_z", "1", "drift", drift_part, [](const MeasuredDrift& level) { return level.drift.z(); }},
+    {"drift_x", "1", "drift", drift_part, [](const MeasuredDrift& level) { return level.drift.x(); }, "x"},
+    {"drift_y", "1", "drift", drift_part, [](const MeasuredDrift& level) { return level.drift.y(); }, "y"},
+    {"drift_z", "1", "drift", drift_part, [](const MeasuredDrift& level) { return level.drift.z(); }, "z"},
 };
 
 constexpr ColumnOf<CrackWidths> crack_columns[] = {
@@ -149,15 +149,15 @@ constexpr ColumnOf<R> run_columns[] = {
      [](const R& r) { return r.ledger.numerical; }},
     {"energy.residual", "J", "energies", "residual of the energy balance: rounding error",
      [](const R& r) { return r.ledger.residual; }},
-    {"momentum.x", "N s", "momentum", momentum, [](const R& r) { return r.momentum.x(); }},
-    {"momentum.y", "N s", "momentum", momentum, [](const R& r) { return r.momentum.y(); }},
-    {"momentum.z", "N s", "momentum", momentum, [](const R& r) { return r.momentum.z(); }},
+    {"momentum.x", "N s", "momentum", momentum, [](const R& r) { return r.momentum.x(); }, "x"},
+    {"momentum.y", "N s", "momentum", momentum, [](const R& r) { return r.momentum.y(); }, "y"},
+    {"momentum.z", "N s", "momentum", momentum, [](const R& r) { return r.momentum.z(); }, "z"},
     {"angular_momentum.x", "N m s", "angular momentum", about,
-     [](const R& r) { return r.angular_momentum.x(); }},
+     [](const R& r) { return r.angular_momentum.x(); }, "x"},
     {"angular_momentum.y", "N m s", "angular momentum", about,
-     [](const R& r) { return r.angular_momentum.y(); }},
+     [](const R& r) { return r.angular_momentum.y(); }, "y"},
     {"angular_momentum.z", "N m s", "angular momentum", about,
-     [](const R& r) { return r.angular_momentum.z(); }},
+     [](const R& r) { return r.angular_momentum.z(); }, "z"},
     {"contacts.open", "1", "contacts", "contact points that are open",
      [](const R& r) { return static_cast<double>(r.counts.open); }},
     {"contacts.locked", "1", "contacts", "that are locked",
@@ -274,7 +274,8 @@ class RowWriter {
 template <class Source>
 Column column_of(const ColumnOf<Source>& declared, const std::string& measure) {
   const std::string start = measure.empty() ? "" : measure + ".";
-  return {start + declared.name, declared.unit, declared.group, declared.meaning, measure};
+  return {start + declared.name, declared.unit, declared.group,
+          declared.meaning,      measure,       declared.component};
 }
 
 /// Adds the columns of a measure to a list.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -32,6 +33,23 @@ Vector3 way_of(const Simulation& simulation, std::size_t block) {
 Vector3 down_of(const Simulation& simulation) {
   const Vector3 gravity = simulation.system().settings().gravity_at(0.0);
   return gravity.norm() > 0.0 ? Vector3(gravity.normalized()) : Vector3(Vector3::Zero());
+}
+
+/// Of the centroid, m.
+Vector3 centroid_place(const Simulation& simulation, std::size_t block) {
+  const PolynomialBasis& basis = simulation.blocks()[block].basis();
+  return simulation.states()[block].position.transpose() * basis.values(basis.centroid());
+}
+
+/// m along `down`, of the lowest corner of the fixed blocks; infinite: there are none.
+double lowest_of_fixed(const Simulation& simulation, const Vector3& down) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double lowest = -infinite;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
+    if (simulation.system().present(static_cast<int>(k)) && simulation.blocks()[k].fixed())
+      for (const Vector3& corner : simulation.blocks()[k].solid().mesh().points)
+        lowest = std::max(lowest, corner.dot(down));
+  return lowest == -infinite ? infinite : lowest;
 }
 
 }  // namespace
@@ -67,10 +85,13 @@ MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record)
   MotionVerdict verdict;
   const Vector3 down = down_of(simulation);
   const double gravity = simulation.system().settings().largest_gravity();
+  const double lowest = lowest_of_fixed(simulation, down);
   for (const BlockFall& fall : record.falls) {
     if (!may_move(simulation, at(fall.block))) continue;
     const Vector3 way = way_of(simulation, at(fall.block));
-    verdict.fallen.push_back({fall.block, fall.time, way.dot(down), way.norm()});
+    const double drop = way.dot(down);
+    verdict.fallen.push_back({fall.block, fall.time, drop, way.norm(), (way - drop * down).norm(),
+                              centroid_place(simulation, at(fall.block)).dot(down) > lowest});
   }
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     if (!may_move(simulation, k)) continue;
@@ -123,6 +144,9 @@ std::string describe(const MotionVerdict& verdict, const Simulation& simulation)
         fmt::format("{}{} at {:.4g} s, {:.3g} m down", k == 0 ? "" : ", ", name(of.block), of.time, of.drop);
   }
   if (fallen > most_named) text += fmt::format(" and {} more", fallen - most_named);
+  const auto left = std::count_if(verdict.fallen.begin(), verdict.fallen.end(),
+                                  [](const MotionVerdict::Fallen& of) { return of.left; });
+  if (left > 0) text += fmt::format("; {} below all fixed blocks, where nothing stops them", left);
   const int others = verdict.displaced - static_cast<int>(fallen);
   if (others > 0)
     text += fmt::format("; {}{} {} more than a tenth of {} size from where {} placed", others,

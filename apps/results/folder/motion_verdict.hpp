@@ -34,6 +34,8 @@ struct MotionVerdict {
     double time;      ///< s
     double drop;      ///< m, at the end, along gravity
     double distance;  ///< m, of its centroid from where it was placed
+    double runout;    ///< m, the part of it across gravity
+    bool left;        ///< its centroid is below all fixed blocks: nothing will stop it
   };
   std::vector<Fallen> fallen;
   int all = 0;         ///< blocks that may move

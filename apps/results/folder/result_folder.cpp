@@ -179,7 +179,8 @@ std::vector<MeasurePeak> ResultFolder::peaks() const {
   const std::vector<Column> columns = history_columns(measures_, progress_.stage > 0);
   // The first column, the step, is no value of a row.
   for (std::size_t k = 1; k < columns.size() && k <= progress_.peaks.size(); ++k)
-    if (!columns[k].measure.empty()) peaks.push_back({columns[k].name, progress_.peaks[k - 1]});
+    if (!columns[k].measure.empty())
+      peaks.push_back({columns[k].name, columns[k].unit, progress_.peaks[k - 1]});
   return peaks;
 }
 

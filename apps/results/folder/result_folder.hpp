@@ -46,6 +46,7 @@ struct ColumnPeak {
 
 struct MeasurePeak {
   std::string column;
+  std::string unit;
   ColumnPeak peak;
 };
 

@@ -21,6 +21,9 @@ static std::string without_noise(const Vector3& vector) {
   return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", shown[0], shown[1], shown[2]);
 }
 
+/// Of the fastest block's acceleration: others below it yield, they are no part of the mechanism.
+constexpr double yielding_share = 0.01;
+
 std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
   std::vector<DisplacedBlock> result;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
@@ -52,25 +55,34 @@ std::string to_string(RunStatus status) {
 }
 
 std::string motion_in_words(const Simulation& simulation) {
-  const std::vector<MovingBlock> moving = simulation.moving_blocks();
+  std::vector<MovingBlock> moving = simulation.moving_blocks();
   if (moving.empty()) return "";
+  std::stable_sort(moving.begin(), moving.end(), [](const MovingBlock& a, const MovingBlock& b) {
+    return a.acceleration.norm() > b.acceleration.norm();
+  });
   const auto name = [&](const MovingBlock& one) {
     return simulation.blocks()[static_cast<std::size_t>(one.block)].name();
   };
-  const auto fastest =
-      std::max_element(moving.begin(), moving.end(), [](const MovingBlock& a, const MovingBlock& b) {
-        return a.acceleration.norm() < b.acceleration.norm();
-      });
-  const std::string acceleration = fmt::format("acceleration {} m/s^2", without_noise(fastest->acceleration));
-  if (moving.size() == 1) return fmt::format("block {} moves, {}", name(*fastest), acceleration);
+  const MovingBlock& fastest = moving.front();
+  const std::string acceleration = fmt::format("acceleration {} m/s^2", without_noise(fastest.acceleration));
+  // Blocks beside a mechanism yield where it leaves.
+  const std::size_t all = moving.size();
+  std::erase_if(moving, [least = yielding_share * fastest.acceleration.norm()](const MovingBlock& one) {
+    return one.acceleration.norm() < least;
+  });
+  const std::string others =
+      moving.size() == all ? ""
+                           : fmt::format("; {} yield{} at less than {:.0f} % of it", all - moving.size(),
+                                         all - moving.size() == 1 ? "s" : "", 100.0 * yielding_share);
+  if (moving.size() == 1) return fmt::format("block {} moves, {}{}", name(fastest), acceleration, others);
   std::size_t movable = 0;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
     if (!simulation.blocks()[k].fixed() && simulation.system().present(static_cast<int>(k))) ++movable;
   std::vector<std::string> names;
   names.reserve(moving.size());
   for (const MovingBlock& one : moving) names.push_back(name(one));
-  return fmt::format("{} of {} blocks move: {}; block {} fastest, {}", moving.size(), movable,
-                     first_names(names), name(*fastest), acceleration);
+  return fmt::format("{} of {} blocks move: {}; block {} fastest, {}{}", moving.size(), movable,
+                     first_names(names), name(fastest), acceleration, others);
 }
 
 std::string describe_motion(const Simulation& simulation) {

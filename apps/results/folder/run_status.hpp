@@ -31,7 +31,7 @@ inline constexpr double displaced_share = 0.1;
 [[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 
 /// "block A moves, acceleration [0, 0, -9.81] m/s^2", or of several blocks their number, the first names, and the
-/// acceleration of the fastest; empty if none moves. Components within rounding error are 0.
+/// acceleration of the fastest; those slower than a hundredth of it are counted apart. Empty if none moves. Components within rounding error are 0.
 [[nodiscard]] std::string motion_in_words(const Simulation& simulation);
 /// "no equilibrium: " and the same.
 [[nodiscard]] std::string describe_motion(const Simulation& simulation);

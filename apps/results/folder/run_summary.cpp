@@ -183,6 +183,7 @@ void add_contact_tallies(nlohmann::ordered_json& summary, const Simulation& simu
   if (const ImpactTally& impacts = simulation.impacts(); impacts.count > 0)
     summary["impacts"] = {{"count", impacts.count},
                           {"inaccurate", impacts.inaccurate},
+                          {"unlike_restitution", impacts.unlike},
                           {"largest_residual", impacts.residual},
                           {"largest_residual_time", impacts.time}};
 }
@@ -247,7 +248,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   if (!simulation.bolts().empty()) summary["support"] = support_summary(simulation);
   add_contact_tallies(summary, simulation);
   summary["energy_redetection"] = {{"gained", simulation.ledger().redetection_gained},
-                               {"lost", simulation.ledger().redetection_lost}};
+                                   {"lost", simulation.ledger().redetection_lost}};
   summary["energy_residual"] = simulation.ledger().residual;
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
   summary["energy_max"] = simulation.largest_energy();

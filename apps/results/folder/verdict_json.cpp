@@ -16,8 +16,12 @@ nlohmann::ordered_json verdict_json(const MotionVerdict& verdict, const Simulati
                {"displaced", verdict.displaced},
                {"fallen", Json::array()}};
   for (const MotionVerdict::Fallen& of : verdict.fallen)
-    json["fallen"].push_back(
-        {{"block", name(of.block)}, {"time", of.time}, {"drop", of.drop}, {"distance", of.distance}});
+    json["fallen"].push_back({{"block", name(of.block)},
+                              {"time", of.time},
+                              {"drop", of.drop},
+                              {"distance", of.distance},
+                              {"runout", of.runout},
+                              {"below_all_fixed", of.left}});
   return json;
 }
 
@@ -27,8 +31,9 @@ nlohmann::ordered_json peaks_json(const std::vector<MeasurePeak>& peaks) {
                               : nlohmann::ordered_json{{"value", number}, {"time", time}};
   };
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const auto& [column, peak] : peaks)
-    json[column] = {{"least", value(peak.least, peak.least_time)},
+  for (const auto& [column, unit, peak] : peaks)
+    json[column] = {{"unit", unit},
+                    {"least", value(peak.least, peak.least_time)},
                     {"largest", value(peak.largest, peak.largest_time)}};
   return json;
 }

@@ -26,19 +26,6 @@ WaveVelocity velocity_of(const SceneBoundary& boundary) {
   return velocity;
 }
 
-/// All components of a base, the normal one of a side along an axis of space.
-std::array<bool, 3> held_components(const Vector3& normal, const Vector3& gravity) {
-  constexpr double across = 1e-9;  // cosine of a right angle, as written in decimals
-  const Vector3 unit = normal.normalized();
-  std::array<bool, 3> held = {true, true, true};
-  if (gravity.isZero(0.0) || std::abs(unit.dot(gravity.normalized())) > across) return held;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(unit[axis]) < 1.0 - across) continue;
-    held = {axis == 0, axis == 1, axis == 2};
-  }
-  return held;
-}
-
 /// Component of a wave along a unit direction.
 History component_of(const SceneBoundary& base, const Vector3& direction) {
   History history;
@@ -164,6 +151,18 @@ std::vector<Load> beside(const SideColumn& side, const Polyhedron& solid, const 
 }
 
 }  // namespace
+
+std::array<bool, 3> held_components(const Vector3& normal, const Vector3& gravity) {
+  constexpr double across = 1e-9;  // cosine of a right angle, as written in decimals
+  const Vector3 unit = normal.normalized();
+  std::array<bool, 3> held = {true, true, true};
+  if (gravity.isZero(0.0) || std::abs(unit.dot(gravity.normalized())) > across) return held;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(unit[axis]) < 1.0 - across) continue;
+    held = {axis == 0, axis == 1, axis == 2};
+  }
+  return held;
+}
 
 QuietBoundaries::QuietBoundaries(const Scene& scene, const std::vector<Polyhedron>& solids,
                                  const SimulationSettings& settings, Diagnostics& diagnostics) {

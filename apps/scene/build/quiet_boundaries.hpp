@@ -8,6 +8,7 @@
 // run.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,10 @@
 #include "solver/run/free_field.hpp"
 
 namespace ashlar {
+
+/// Components that a boundary holds until motion begins: all of a base, the normal one of a side along an axis of space.
+/// @param gravity m/s^2; zero: every boundary is a base
+[[nodiscard]] std::array<bool, 3> held_components(const Vector3& normal, const Vector3& gravity);
 
 /// The column beside a free-field boundary, and its motion along x, y and z of space.
 struct SideColumn {

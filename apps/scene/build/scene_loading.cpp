@@ -20,6 +20,7 @@
 #include "apps/scene/expand/scene_cuts.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
+#include "apps/scene/model/scene_placement.hpp"
 #include "apps/scene/read/assignments.hpp"
 
 namespace ashlar {
@@ -139,8 +140,11 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides, Diagnostics& diagnostics,
-                                      Preparation* preparation, LoadPurpose purpose, int ranks) {
-  return loaded(read_scene(file, overrides, diagnostics), diagnostics, preparation, purpose, ranks);
+                                      Preparation* preparation, LoadPurpose purpose, int ranks,
+                                      const ScenePlacement* placement) {
+  Scene scene = read_scene(file, overrides, diagnostics);
+  if (placement != nullptr && diagnostics.good()) scene = placed(std::move(scene), *placement);
+  return loaded(std::move(scene), diagnostics, preparation, purpose, ranks);
 }
 
 std::optional<LoadedScene> load_scene_text(std::string_view text, const std::filesystem::path& file,

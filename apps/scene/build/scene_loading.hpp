@@ -17,6 +17,8 @@
 
 namespace ashlar {
 
+struct ScenePlacement;
+
 struct LoadedScene {
   ExpandedScene scene;
   std::vector<Polyhedron> solids;  ///< one per scene.block, placed
@@ -41,12 +43,14 @@ enum class LoadPurpose {
 /// soft_blocks.hpp, idle_keys.hpp. Each stage of a scene is checked.
 /// @param overrides "key.path=value" each, as given to --set, applied in order.
 /// @param preparation receives the present phase, if not null. @param ranks that share a run of the scene
+/// @param placement of the scene that was read (scene_placement.hpp, with the exceptions of placed()), if not null
 /// @return empty if the scene has any error; all of them are then in diagnostics. Writes no file.
 [[nodiscard]] std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                                     const std::vector<std::string>& overrides,
                                                     Diagnostics& diagnostics,
                                                     Preparation* preparation = nullptr,
-                                                    LoadPurpose purpose = LoadPurpose::run, int ranks = 1);
+                                                    LoadPurpose purpose = LoadPurpose::run, int ranks = 1,
+                                                    const ScenePlacement* placement = nullptr);
 
 /// The same from the text of a scene. @param file name for messages and folder of its paths
 [[nodiscard]] std::optional<LoadedScene> load_scene_text(std::string_view text,

@@ -141,7 +141,8 @@ void find_ends(const LinesInBlocks& blocks, const char* what, SupportLine& line)
   }
 }
 
-/// Heads of the bolts of a pattern: points of its grid from which the bar goes into a block at once.
+/// Heads of the bolts of a pattern: points of its grid on faces in its plane, from which the bar goes into a block at
+/// once.
 class PatternHeads {
  public:
   PatternHeads(const SceneBolt::Pattern& pattern, const LinesInBlocks& blocks)
@@ -150,6 +151,8 @@ class PatternHeads {
     along_ = level.norm() > end_share ? Vector3(level.normalized()) : Vector3(Vector3::UnitX());
     across_ = normal_.cross(along_);
     direction_ = pattern.direction ? Vector3(pattern.direction->stableNormalized()) : Vector3(-normal_);
+    for (std::size_t k = 0; k < blocks_.count(); ++k)
+      if (blocks_.solid(k) != nullptr) add_triangles(*blocks_.solid(k));
   }
 
   [[nodiscard]] const Vector3& direction() const { return direction_; }
@@ -161,6 +164,7 @@ class PatternHeads {
       for (int i = range[0][0]; i <= range[0][1]; ++i) {
         const Vector3 head =
             pattern_.plane.point + i * pattern_.spacing[0] * along_ + j * pattern_.spacing[1] * across_;
+        if (!is_on_a_face({i * pattern_.spacing[0], j * pattern_.spacing[1]})) continue;
         const std::vector<BoltSpan> spans = blocks_.spans(head, direction_, 0.0, pattern_.length);
         if (!spans.empty() && spans.front().start <= end_share * pattern_.length) heads.push_back(head);
       }
@@ -169,25 +173,57 @@ class PatternHeads {
   }
 
  private:
+  /// A triangle of a face in the plane: coordinates along and across from the plane's point, counter-clockwise.
+  struct FlatTriangle {
+    std::array<Eigen::Vector2d, 3> corners;
+    double offset;  ///< m, by which coordinates of its block may be rounded
+  };
+
+  void add_triangles(const Polyhedron& solid) {
+    const double offset = allowed_offset(solid);
+    for (const int face : faces_in_plane(solid, {pattern_.plane.point, pattern_.plane.normal})) {
+      for (const int triangle : solid.faces()[at(face)].triangles) {
+        FlatTriangle flat{{}, offset};
+        for (std::size_t n = 0; n < 3; ++n) {
+          const int corner = solid.mesh().triangles[at(triangle)][n];
+          const Vector3 place = solid.mesh().points[at(corner)] - pattern_.plane.point;
+          flat.corners[n] = {place.dot(along_), place.dot(across_)};
+        }
+        const auto& [a, b, c] = flat.corners;
+        if (area(a, b, c) < 0.0) std::swap(flat.corners[1], flat.corners[2]);
+        triangles_.push_back(flat);
+      }
+    }
+  }
+
+  /// Twice the area, positive if counter-clockwise.
+  static double area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+    return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+  }
+
+  [[nodiscard]] bool is_on_a_face(const Eigen::Vector2d& head) const {
+    return std::any_of(triangles_.begin(), triangles_.end(), [&](const FlatTriangle& triangle) {
+      for (std::size_t n = 0; n < 3; ++n) {
+        const Eigen::Vector2d &from = triangle.corners[n], &to = triangle.corners[(n + 1) % 3];
+        if (area(from, to, head) < -triangle.offset * (to - from).norm()) return false;
+      }
+      return true;
+    });
+  }
+
   /// Numbers of the first and last head in both directions that may be on a face in the plane.
   [[nodiscard]] std::array<std::array<int, 2>, 2> grid() const {
     std::array<std::array<int, 2>, 2> range = {{{0, -1}, {0, -1}}};
     bool any = false;
-    for (std::size_t k = 0; k < blocks_.count(); ++k) {
-      if (blocks_.solid(k) == nullptr) continue;
-      const Polyhedron& solid = *blocks_.solid(k);
-      for (const int face : faces_in_plane(solid, {pattern_.plane.point, pattern_.plane.normal})) {
-        for (const int corner : solid.faces()[at(face)].loops.front()) {
-          const Vector3 place = solid.mesh().points[at(corner)] - pattern_.plane.point;
-          const std::array<double, 2> steps = {place.dot(along_) / pattern_.spacing[0],
-                                               place.dot(across_) / pattern_.spacing[1]};
-          for (const std::size_t n : {0U, 1U}) {
-            const int low = static_cast<int>(std::floor(std::clamp(steps[n], -farthest, farthest)));
-            range[n] = any ? std::array{std::min(range[n][0], low), std::max(range[n][1], low + 1)}
-                           : std::array{low, low + 1};
-          }
-          any = true;
+    for (const FlatTriangle& triangle : triangles_) {
+      for (const Eigen::Vector2d& corner : triangle.corners) {
+        for (const std::size_t n : {0U, 1U}) {
+          const double steps = corner[static_cast<Eigen::Index>(n)] / pattern_.spacing[n];
+          const int low = static_cast<int>(std::floor(std::clamp(steps, -farthest, farthest)));
+          range[n] = any ? std::array{std::min(range[n][0], low), std::max(range[n][1], low + 1)}
+                         : std::array{low, low + 1};
         }
+        any = true;
       }
     }
     return range;
@@ -201,6 +237,7 @@ class PatternHeads {
   Vector3 along_;
   Vector3 across_;
   Vector3 direction_;
+  std::vector<FlatTriangle> triangles_;
 };
 
 void add_bolt(const SceneBolt& bolt, const std::string& path, const LinesInBlocks& blocks,

@@ -32,6 +32,10 @@ struct ShapeBox {
   Box operator()(const SceneMesh& mesh) const {
     Box box;
     try {
+      if (mesh.stone) {
+        for (const Vector3& point : mesh.stone->points) box.include(mesh.scale * point);
+        return box;
+      }
       const std::filesystem::path file = folder / mesh.file;
       for (const Vector3& point :
            is_volume_mesh(file) ? read_volume_mesh(file).points : read_mesh_file(file).points)
@@ -90,6 +94,20 @@ Vector3 origin_of_model(const toml::table& document, const std::vector<std::stri
   for (const std::vector<SceneBlock>& pieces : top.read_tables("masonry", read_masonry))
     for (const SceneBlock& piece : pieces) include(piece);
   return origin_for(all);
+}
+
+Box box_of_blocks(const Scene& scene) {
+  const std::filesystem::path folder = scene.file.parent_path();
+  Box all;
+  for (const SceneBlock& block : scene.block) {
+    Box shape = std::visit(ShapeBox{folder}, block.shape);
+    if (std::holds_alternative<SceneMesh>(block.shape)) {
+      shape.low -= block.shape_origin;
+      shape.high -= block.shape_origin;
+    }
+    include_block(block, shape, all);
+  }
+  return all;
 }
 
 Vector3 shape_origin_of(const SceneBlock& block, const TomlReading& reading) {

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/model/scene_block.hpp"
+#include "apps/scene/model/scene.hpp"
 #include "apps/scene/toml/toml_reading.hpp"
+#include "geometry/boxes/box.hpp"
 
 namespace ashlar {
 
@@ -13,6 +14,9 @@ namespace ashlar {
 /// read. Files of meshes are read.
 /// @param files see TomlReading
 [[nodiscard]] Vector3 origin_of_model(const toml::table& document, const std::vector<std::string>& files);
+
+/// A box around the blocks of a scene that has been read, relative to its origin, m. Files of meshes are read.
+[[nodiscard]] Box box_of_blocks(const Scene& scene);
 
 /// SceneBlock::shape_origin of a block as read, m: the origin of the model, unless `translate` takes the shape there from
 /// elsewhere.

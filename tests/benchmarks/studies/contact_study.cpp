@@ -10,8 +10,8 @@
 
 #include "apps/program/verify/falling_block.hpp"
 #include "apps/program/verify/hertz_sphere.hpp"
-#include "apps/program/verify/patch_test.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
+#include "benchmarks/studies/patch_test.hpp"
 
 namespace ashlar {
 namespace {

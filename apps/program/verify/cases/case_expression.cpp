@@ -46,9 +46,9 @@ bool continues_name(char c) {
 }
 
 /// Evaluates expressions of one run.
-class Evaluation {
+class CaseEvaluation {
  public:
-  Evaluation(const Formulas& names, const CaseResults& results) : names_(names), results_(results) {}
+  CaseEvaluation(const Formulas& names, const CaseResults& results) : names_(names), results_(results) {}
 
   /// A function of a row, whose values columns have.
   using OfRow = std::function<double(std::size_t)>;
@@ -341,7 +341,7 @@ class Evaluation {
 
 double value_of(const std::string& text, const Formulas& names, const CaseResults& results) {
   const std::size_t last = results.rows.empty() ? 0 : results.rows.size() - 1;
-  return Evaluation(names, results).value({text, 0}, last);
+  return CaseEvaluation(names, results).value({text, 0}, last);
 }
 
 }  // namespace ashlar

@@ -3,7 +3,8 @@
 // Formulas (formulas.hpp) with, besides the names of the case,
 //   cube.uz, time            a column of history.csv: its last value
 //   'stone 1.uz'             the same, of a name with other characters
-//   summary.energy_max       a number of summary.json (json_path.hpp); true is 1, false 0, null none
+//   summary.energy_max       a number of summary.json (json_path.hpp); true is 1, false 0, null none. Vectors and places
+//                            there are those of the scene that is run, also if it is placed (scene_case_run.hpp)
 //   known(e)                 1 if the results in it have values, otherwise 0
 //   middle(summary.factor_of_safety)  geometric mean of `lower` and `upper` of a bracket
 // and functions over the rows of the history, of expressions in which columns are those of the row:

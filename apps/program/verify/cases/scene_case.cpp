@@ -97,6 +97,7 @@ std::string label_of(const Chosen& chosen) {
   std::string value = number ? fmt::format("{:.6g}", number_in(*chosen.value)) : toml_text(*chosen.value);
   if (value.size() > 1 && (value.front() == '\'' || value.front() == '"'))
     value = value.substr(1, value.size() - 2);
+  if (value.starts_with("= ")) value.erase(0, 2);
   return chosen.key.substr(chosen.key.rfind('.') + 1) + " " + value;
 }
 
@@ -111,10 +112,11 @@ class CaseReader {
     result.name = name;
     result.place = reading_.places().key(name);
     std::string scene;
-    for (const char* key : {"about", "reference", "scene"})
+    for (const char* key : {"about", "reference", "source", "scene"})
       if (!table.given(key)) table.require(key);
     (void)table.read_text("about", result.about);
     (void)table.read_text("reference", result.reference);
+    (void)table.read_text("source", result.source);
     if (table.read_text("scene", scene)) result.scene = folder_ / scene;
     const toml::table* define = table.table_at("define");
     const auto varied = read_varied(table);

@@ -6,6 +6,7 @@
 //   [limit-plane]
 //   about = "limit analysis: factor of safety of a block on a plane"
 //   reference = "F = (W cos(alpha) tan(phi) + c A) / (W sin(alpha))"
+//   source = "limit equilibrium"
 //   scene = "limit_plane.toml"
 //   vary = [{ alpha = [30, 50], phi = 25, "analysis.integrator" = "dda" }]
 //   define = { W = "= 2500*9.81", A = 2.0 }
@@ -58,7 +59,8 @@ struct CaseCheck {
 struct SceneCase {
   std::string name;
   std::string about;
-  std::string reference;
+  std::string reference;  ///< in words
+  std::string source;     ///< of the reference
   std::filesystem::path scene;
   Place place;
   std::vector<CaseVariant> variants;

@@ -9,11 +9,14 @@
 #include <utility>
 
 #include "apps/program/verify/cases/case_expression.hpp"
+#include "apps/program/verify/cases/placed_rows.hpp"
+#include "apps/results/columns/history_columns.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_path.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/build/scene_reader.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {
@@ -29,23 +32,36 @@ std::string folder_name(const std::string& label) {
   return name;
 }
 
-/// Writes how a variant is repeated.
+/// Writes how a variant is repeated, with the scene where it is: it may include other files.
 void leave_command(const SceneCase& chosen, const CaseVariant& variant, const std::filesystem::path& folder) {
-  std::string command = "ashlar run " + chosen.scene.filename().string();
+  std::string command = fmt::format("ashlar run '{}'", std::filesystem::absolute(chosen.scene).string());
   for (const std::string& change : variant.overrides) command += fmt::format(" --set '{}'", change);
   write_file_atomically(folder / "command.txt", command + "\n", Durability::process);
 }
 
+/// Rows of a run in the axes of the scene as it is written.
+std::vector<std::vector<double>> own_rows(const SceneCase& chosen, const CaseVariant& variant, const Run& run,
+                                          const Placement& placement) {
+  if (placement.is_identity()) return run.rows();
+  Diagnostics known;  // the scene has been loaded
+  const Vector3 origin = read_scene(chosen.scene, variant.overrides, known).origin;
+  const std::vector<Column> columns =
+      history_columns(measures_of(run.whole(), run.simulation().blocks()), run.stage() > 0);
+  return turned_back(columns, run.rows(), placement, placement.point(origin) - run.whole().origin);
+}
+
 /// @return empty, with faults in the diagnostics, if the scene has errors
 std::optional<CaseResults> results_of(const SceneCase& chosen, const CaseVariant& variant,
-                                      const std::filesystem::path& folder, Diagnostics& diagnostics) {
-  std::optional<LoadedScene> scene = load_scene(chosen.scene, variant.overrides, diagnostics);
+                                      const std::filesystem::path& folder, const Placement& placement,
+                                      Diagnostics& diagnostics) {
+  std::optional<LoadedScene> scene =
+      load_scene(chosen.scene, variant.overrides, diagnostics, nullptr, LoadPurpose::run, 1, &placement);
   if (!scene) return std::nullopt;
   Run run(std::move(*scene));
   if (!folder.empty()) {
     std::filesystem::create_directories(folder.parent_path());
     run.record(folder, ClaimPurpose::replacement);
-    leave_command(chosen, variant, folder);
+    if (placement.is_identity()) leave_command(chosen, variant, folder);
   }
   try {
     while (run.step()) {
@@ -53,7 +69,7 @@ std::optional<CaseResults> results_of(const SceneCase& chosen, const CaseVariant
   } catch (const std::runtime_error&) {
     if (run.status() != RunStatus::failed) throw;
   }
-  return CaseResults{run.columns(), run.rows(), parse_json(run.summary())};
+  return CaseResults{run.columns(), own_rows(chosen, variant, run, placement), parse_json(run.summary())};
 }
 
 /// Evaluates the checks of one variant.
@@ -132,12 +148,12 @@ class CheckedVariant {
 }  // namespace
 
 std::vector<VerificationCheck> run_case(const SceneCase& chosen, const std::filesystem::path& kept,
-                                        Diagnostics& diagnostics) {
+                                        Diagnostics& diagnostics, const Placement& placement) {
   std::vector<VerificationCheck> checks;
   for (const CaseVariant& variant : chosen.variants) {
     const std::filesystem::path folder =
         kept.empty() ? kept : kept / chosen.name / folder_name(variant.label);
-    std::optional<CaseResults> results = results_of(chosen, variant, folder, diagnostics);
+    std::optional<CaseResults> results = results_of(chosen, variant, folder, placement, diagnostics);
     if (!results) continue;
     for (VerificationCheck& check :
          CheckedVariant(chosen, variant, std::move(*results), diagnostics).checks())

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "apps/program/verify/hertz_sphere.hpp"
-#include "apps/program/verify/patch_test.hpp"
+#include "benchmarks/studies/patch_test.hpp"
 
 namespace ashlar::contact_study_test {
 namespace {

@@ -54,8 +54,8 @@ TEST_F(RunCommand, HistoryHasARowPerStepAndTheColumnsOfRecord) {
             "energy.numerical,"
             "energy.residual,momentum.x,momentum.y,momentum.z,angular_momentum.x,angular_momentum.y,"
             "angular_momentum.z,contacts.open,contacts.locked,contacts.sliding,penetration.max,"
-            "open_close.iterations,energy.refound_gained,energy.refound_lost,tip.sxx,tip.syy,tip.szz,tip.sxy,"
-            "tip.syz,tip.sxz");
+            "open_close.iterations,energy.redetection_gained,energy.redetection_lost,tip.sxx,tip.syy,tip.szz,tip.sxy,"
+            "tip.syz,tip.sxz,tip.speed");
   EXPECT_THAT(rows[1], StartsWith("0,0,0,4,0,0,0,0,0,0,0,0,"));
   EXPECT_THAT(rows[41], StartsWith("40,0.04"));
 }
@@ -76,7 +76,7 @@ TEST_F(RunCommand, HistoryEndsWithTheStressOfMeasuredPoints) {
     std::istringstream row(lines(std::string(formulation) + "/history.csv").at(1));
     std::vector<double> values;
     for (std::string value; std::getline(row, value, ',');) values.push_back(std::stod(value));
-    ASSERT_EQ(values.size(), 40U);
+    ASSERT_EQ(values.size(), 41U);
     EXPECT_NEAR(values[34], 1000.0, 1e-5);
     for (std::size_t k = 35; k < 40; ++k) EXPECT_NEAR(values[k], 0.0, 1e-5);
   }

@@ -1,5 +1,6 @@
 #include "apps/program/verify/verify_command.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -101,7 +102,7 @@ TEST(VerifyCommand, ListsCasesAsJson) {
   const auto json = nlohmann::json::parse(answer.out);
   ASSERT_GT(json.size(), all_verification_cases().size());
   // Scenes come first, with the references in words that the page of cases has.
-  for (const char* key : {"name", "description", "reference", "scene"})
+  for (const char* key : {"name", "description", "reference", "source", "scene"})
     EXPECT_TRUE(json[0].contains(key)) << key;
   EXPECT_EQ(json.back()["name"], all_verification_cases().back().name);
 }
@@ -110,7 +111,8 @@ TEST(VerifyCommand, UnknownCasesAreRefusedWithTheNearestName) {
   const Answer answer = verify({.cases = {"free-fal"}});
   EXPECT_EQ(answer.status, exit_status::bad_input);
   EXPECT_NE(answer.err.find("did you mean free-fall?"), std::string::npos);
-  EXPECT_NE(verify({.cases = {"bar"}}).err.find("did you mean bar-impact or torsion-bar or spinning-bar?"),
+  EXPECT_NE(verify({.cases = {"bar"}})
+                .err.find("did you mean bar-impact or torsion-bar or spinning-bar or effectivity-bar?"),
             std::string::npos);
 }
 
@@ -143,7 +145,7 @@ pair = ["floor", "cube"]
   }
   [[nodiscard]] Answer verified(const std::string& checks) const {
     write_text(folder / "cases.toml",
-               "[cube-weight]\nabout = \"a cube\"\nreference = \"its weight\"\n"
+               "[cube-weight]\nabout = \"a cube\"\nreference = \"its weight\"\nsource = \"statics\"\n"
                "scene = \"cube.toml\"\nvary = [{ density = [2000, 3000] }]\ncheck = [" +
                    checks + "]\n");
     return verify({.folder = folder.path()});
@@ -158,8 +160,9 @@ TEST_F(OwnCases, RunAndAreKept) {
   EXPECT_NE(right.out.find("base.normal_force, density 3000"), std::string::npos) << right.out;
   const Answer kept = verify({.folder = folder.path(), .kept = folder / "kept"});
   EXPECT_EQ(kept.status, exit_status::done);
-  EXPECT_EQ(read_text(folder / "kept/cube-weight/density_3000/command.txt"),
-            "ashlar run cube.toml --set 'parameters.density=3000'\n");
+  EXPECT_EQ(
+      read_text(folder / "kept/cube-weight/density_3000/command.txt"),
+      fmt::format("ashlar run '{}' --set 'parameters.density=3000'\n", (folder / "cube.toml").string()));
   EXPECT_TRUE(std::filesystem::exists(folder / "kept/cube-weight/cube.toml"));
   EXPECT_TRUE(std::filesystem::exists(folder / "kept/cube-weight/density_2000/history.csv"));
 }
@@ -180,11 +183,11 @@ TEST_F(OwnCases, FaultsHaveTheirPlace) {
   for (const auto& [check, message] :
        {Fault{"", ":1:2: error: case cube-weight has no check, one is needed"},
         Fault{"{ value = \"bass.normal_force\", expect = 1, relative = 1 }",
-              ":6:21: error: case cube-weight, density 2000: unknown result (bass.normal_force)"},
+              ":7:21: error: case cube-weight, density 2000: unknown result (bass.normal_force)"},
         Fault{"{ value = \"time\", expect = \"0/0\", relative = 1 }",
-              ":6:38: error: case cube-weight, density 2000: formula has no finite value"},
-        Fault{"{ value = \"time\", expect = 1 }", ":6:10: error: check has no single tolerance"},
-        Fault{"{ value = \"time\", relative = 1 }", ":6:10: error: check has 0 references"},
+              ":7:38: error: case cube-weight, density 2000: formula has no finite value"},
+        Fault{"{ value = \"time\", expect = 1 }", ":7:10: error: check has no single tolerance"},
+        Fault{"{ value = \"time\", relative = 1 }", ":7:10: error: check has 0 references"},
         Fault{"{ value = \"time\", expect = 1, relativ = 1, absolute = 1 }",
               "error: unknown key in cube-weight.check (relativ)"}}) {
     const Answer answer = verified(check);

@@ -24,7 +24,7 @@ struct Contacts {
     a.push_back(blocks[0]);
     b.push_back(blocks[1]);
   }
-  [[nodiscard]] std::vector<JointResultant> resultants() {
+  [[nodiscard]] std::vector<FrameResultant> resultants() {
     grid.point_data = {{"force", 3, {}, force},
                        {"normal", 3, {}, normal},
                        {"state", 1, {}, state},

@@ -1,4 +1,4 @@
-#include "apps/program/verify/patch_test.hpp"
+#include "benchmarks/studies/patch_test.hpp"
 
 #include <algorithm>
 #include <cmath>
