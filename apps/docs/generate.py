@@ -16,6 +16,7 @@
 import argparse
 import concurrent.futures
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -180,7 +181,7 @@ def error(case):
 
 def group_of(entry, sources):
     """Folder of data/verification."""
-    return pathlib.Path(entry["scene"]).parent.name if "scene" in entry else sources["built_in"][entry["name"]]["group"]
+    return entry["group"] if "group" in entry else sources["built_in"][entry["name"]]["group"]
 
 
 def validation_rows(cases, listed, sources, errors):
@@ -195,7 +196,7 @@ def validation_rows(cases, listed, sources, errors):
             if group_of(entry, sources) != group:
                 continue
             about = entry if "scene" in entry else sources["built_in"][name]
-            scene = "/".join(pathlib.Path(entry.get("scene", "")).parts[-2:])
+            scene = "/".join(pathlib.Path(os.path.normpath(entry.get("scene", ""))).parts[-2:])
             shown = f"[`{name}`](../../data/verification/{scene})" if scene else f"`{name}`"
             case = by_name.get(name)
             rest = f"{tolerances(case)} | {error(case)}" if case else errors.get(name, "? | ?")

@@ -24,10 +24,9 @@ double area_of_entries(const std::vector<ContactMemory::Entry>& entries) {
 double most_dilation_of(const std::vector<ContactMemory::Entry>& entries) {
   double most = 0.0;
   for (const ContactMemory::Entry& entry : entries) {
-    most = std::max(most, entry.memory.dilation);
     // A bond in tension transmits forces across its opening.
-    if (entry.memory.intact && entry.memory.state != ContactState::open)
-      most = std::max(most, -entry.memory.compression);
+    const bool bears = entry.memory.intact && entry.memory.state != ContactState::open;
+    most = std::max(most, entry.memory.dilation + (bears ? std::max(0.0, -entry.memory.compression) : 0.0));
   }
   return most;
 }

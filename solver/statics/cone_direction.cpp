@@ -138,80 +138,86 @@ std::vector<BodyVelocity> ConeIteration::solved(const std::vector<BodyVelocity>&
 
 void ConeIteration::direction(double centring, bool corrected) {
   const double target = centring * gap_ / bounds_;
-  each_pair([&](const ConePair&, std::size_t k) {
-    const ConeStrength& s = strength(k);
-    const PointIterate& i = points_[k];
-    PointStep& d = steps_[k];
-    d.right = -d.lack_y;
-    if (s.shear()) {
-      Vector3d r = -cone::product(d.lambda, d.lambda);
-      r[0] += target;
-      if (corrected) r -= cone::product(d.w.back * d.dx, d.w.forth * d.dz);
-      d.q = d.w.back * cone::quotient(d.lambda, r);
-      const Vector3d m = d.q - d.w.back * (d.w.back * d.lack_x);
-      d.right += Vector3d(s.friction * m[0], m[1], m[2]);
-    }
-    if (s.cut_off()) {
-      d.qc = (target - i.xc * i.zc - (corrected ? d.dxc * d.dzc : 0.0)) / i.xc;
-      d.right[0] += d.qc - scalar_w2(i) * d.lack_xc;
-    }
-    if (s.crushes()) {
-      d.qm = (target - i.xm * i.zm - (corrected ? d.dxm * d.dzm : 0.0)) / i.xm;
-      d.right[0] -= d.qm - crushing_w2(i) * d.lack_xm;
-    }
-    if (!s.shear()) d.right.tail<2>().setZero();
-    d.right = d.inverse * d.right;
-  });
+  each_pair([&](const ConePair&, std::size_t k) { note_right_side(k, target, corrected); });
   std::vector<BodyVelocity> right(velocity_.size());
   each_body([&](std::size_t b) {
     right[b] = -lack_v_[b] + gathered(b, [&](std::size_t k) -> const Vector3d& { return steps_[k].right; });
   });
   step_v_ = solved(right);
-  if (grows_) {
-    // f1'dv + dz = -lack_growth,  dz = q - (z/x) dx,  dx = lack_slack - da
-    const double w2 = slack_dual_ / slack_;
-    const double q = (target - slack_ * slack_dual_ - (corrected ? step_slack_ * step_dual_ : 0.0)) / slack_;
-    double have = 0.0, per = w2;
-    for (std::size_t b = 0; b < right.size(); ++b) {
-      have += question_.grows[b].dot(step_v_[b]);
-      per += question_.grows[b].dot(along_[b]);
-    }
-    step_factor_ = (-lack_growth_ - q + w2 * lack_slack_ - have) / per;
-    for (std::size_t b = 0; b < right.size(); ++b) step_v_[b] += step_factor_ * along_[b];
-    step_slack_ = lack_slack_ - step_factor_;
-    step_dual_ = q - w2 * step_slack_;
+  if (grows_) note_growth(target, corrected);
+  each_pair([&](const ConePair& pair, std::size_t k) { note_step(pair, k); });
+}
+
+void ConeIteration::note_right_side(std::size_t k, double target, bool corrected) {
+  const ConeStrength& s = strength(k);
+  const PointIterate& i = points_[k];
+  PointStep& d = steps_[k];
+  d.right = -d.lack_y;
+  if (s.shear()) {
+    Vector3d r = -cone::product(d.lambda, d.lambda);
+    r[0] += target;
+    if (corrected) r -= cone::product(d.w.back * d.dx, d.w.forth * d.dz);
+    d.q = d.w.back * cone::quotient(d.lambda, r);
+    const Vector3d m = d.q - d.w.back * (d.w.back * d.lack_x);
+    d.right += Vector3d(s.friction * m[0], m[1], m[2]);
   }
-  each_pair([&](const ConePair& pair, std::size_t k) {
-    const ConeStrength& s = strength(k);
-    PointStep& d = steps_[k];
-    const Vector3d y = times(program_.points_[k], pair, step_v_);
-    // The duals follow from G dv, which keeps them feasible to rounding for any W.
-    Vector3d dual = d.lack_y + y;
-    if (!s.shear()) dual.tail<2>().setZero();
-    d.dp = d.right - d.inverse * y;
-    dual += compliance * d.dp;
-    // Without friction one of the bounds of N takes its dual from G dv: the nearer one.
-    const bool crushed =
-        s.crushes() && s.friction == 0.0 && (!s.cut_off() || crushing_w2(points_[k]) > scalar_w2(points_[k]));
-    if (s.crushes()) {
-      d.dxm = d.lack_xm - d.dp[0];
-      if (!crushed) {
-        d.dzm = d.qm - crushing_w2(points_[k]) * d.dxm;
-        dual[0] += d.dzm;
-      }
+  if (s.cut_off()) {
+    d.qc = (target - i.xc * i.zc - (corrected ? d.dxc * d.dzc : 0.0)) / i.xc;
+    d.right[0] += d.qc - scalar_w2(i) * d.lack_xc;
+  }
+  if (s.crushes()) {
+    d.qm = (target - i.xm * i.zm - (corrected ? d.dxm * d.dzm : 0.0)) / i.xm;
+    d.right[0] -= d.qm - crushing_w2(i) * d.lack_xm;
+  }
+  if (!s.shear()) d.right.tail<2>().setZero();
+  d.right = d.inverse * d.right;
+}
+
+void ConeIteration::note_growth(double target, bool corrected) {
+  // f1'dv + dz = -lack_growth,  dz = q - (z/x) dx,  dx = lack_slack - da
+  const double w2 = slack_dual_ / slack_;
+  const double q = (target - slack_ * slack_dual_ - (corrected ? step_slack_ * step_dual_ : 0.0)) / slack_;
+  double have = 0.0, per = w2;
+  for (std::size_t b = 0; b < step_v_.size(); ++b) {
+    have += question_.grows[b].dot(step_v_[b]);
+    per += question_.grows[b].dot(along_[b]);
+  }
+  step_factor_ = (-lack_growth_ - q + w2 * lack_slack_ - have) / per;
+  for (std::size_t b = 0; b < step_v_.size(); ++b) step_v_[b] += step_factor_ * along_[b];
+  step_slack_ = lack_slack_ - step_factor_;
+  step_dual_ = q - w2 * step_slack_;
+}
+
+void ConeIteration::note_step(const ConePair& pair, std::size_t k) {
+  const ConeStrength& s = strength(k);
+  PointStep& d = steps_[k];
+  const Vector3d y = times(program_.points_[k], pair, step_v_);
+  // The duals follow from G dv, which keeps them feasible to rounding for any W.
+  Vector3d dual = d.lack_y + y;
+  if (!s.shear()) dual.tail<2>().setZero();
+  d.dp = d.right - d.inverse * y;
+  dual += compliance * d.dp;
+  // Without friction one of the bounds of N takes its dual from G dv: the nearer one.
+  const bool crushed =
+      s.crushes() && s.friction == 0.0 && (!s.cut_off() || crushing_w2(points_[k]) > scalar_w2(points_[k]));
+  if (s.crushes()) {
+    d.dxm = d.lack_xm - d.dp[0];
+    if (!crushed) {
+      d.dzm = d.qm - crushing_w2(points_[k]) * d.dxm;
+      dual[0] += d.dzm;
     }
-    if (s.cut_off()) {
-      d.dxc = d.lack_xc + d.dp[0];
-      d.dzc = s.friction > 0.0 || crushed ? d.qc - scalar_w2(points_[k]) * d.dxc : dual[0];
-      dual[0] -= d.dzc;
-    }
-    if (crushed) d.dzm = -dual[0];
-    if (s.shear()) {
-      d.dx = d.lack_x + Vector3d(s.friction * d.dp[0], d.dp[1], d.dp[2]);
-      d.dz = divided(s, dual);
-      if (s.friction == 0.0) d.dz[0] = d.q[0] - (d.w.back * (d.w.back * d.dx))[0];
-    }
-  });
+  }
+  if (s.cut_off()) {
+    d.dxc = d.lack_xc + d.dp[0];
+    d.dzc = s.friction > 0.0 || crushed ? d.qc - scalar_w2(points_[k]) * d.dxc : dual[0];
+    dual[0] -= d.dzc;
+  }
+  if (crushed) d.dzm = -dual[0];
+  if (s.shear()) {
+    d.dx = d.lack_x + Vector3d(s.friction * d.dp[0], d.dp[1], d.dp[2]);
+    d.dz = divided(s, dual);
+    if (s.friction == 0.0) d.dz[0] = d.q[0] - (d.w.back * (d.w.back * d.dx))[0];
+  }
 }
 
 double ConeIteration::length(double share) const {

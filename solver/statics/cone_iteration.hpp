@@ -108,6 +108,12 @@ class ConeIteration {
 
   /// Direction that reduces complementarity to the share `centring`. @param corrected by the last direction
   void direction(double centring, bool corrected = false);
+  /// Right-hand side of a point of a direction. @param target of the products
+  void note_right_side(std::size_t k, double target, bool corrected);
+  /// Growth of the factor in a direction, and the velocities with it.
+  void note_growth(double target, bool corrected);
+  /// Changes of a point, from the velocities of a direction.
+  void note_step(const ConePair& pair, std::size_t k);
 
   [[nodiscard]] double length(double share) const;
 

@@ -24,6 +24,33 @@ enum class Outcome {
   singular,  ///< the system could not be factorised
 };
 
+/// Decides whether the last factor is used for another residual.
+class LastFactor {
+ public:
+  /// @param rows_updated since the factor, otherwise a new one begins
+  explicit LastFactor(bool rows_updated)
+      : last_(rows_updated ? std::numeric_limits<double>::infinity() : 0.0) {}
+
+  /// @param as_before the states are those of the factor. @param nearly_settled residual from which one more use is enough
+  [[nodiscard]] bool is_good_enough(double residual, bool as_before, double nearly_settled) {
+    // Updated rows differ little: the last factor is used while it reduces the residual by nine tenths each time.
+    constexpr double most_of_it = 0.1;
+    // With unchanged states, a system that has reduced the residual so far will do so again.
+    constexpr double nearly_all = 1e-2;
+    const bool falls = residual < most_of_it * last_;
+    last_ = falls ? residual : 0.0;
+    const double before = std::exchange(before_, residual);
+    const bool contracts = as_before && residual < nearly_all * before;
+    used_again_ = falls || contracts || (as_before && !used_again_ && residual <= nearly_settled);
+    return used_again_;
+  }
+
+ private:
+  double before_ = 0.0;  ///< residual
+  double last_;          ///< the same, while each use of the factor reduces it enough; 0: it did not
+  bool used_again_ = false;
+};
+
 class OpenClose {
  public:
   OpenClose(IslandProblem& problem, IslandResult& result)
@@ -105,6 +132,16 @@ class OpenClose {
     problem_.respond();
   }
 
+  /// Keeps the guess with the least residual.
+  void note_guess(const Residual& residual, bool closing) {
+    if (residual.largest < least_) {
+      least_ = residual.largest;
+      if (!closing) best_ = problem_.guess();
+    }
+    if (problem_.scheme().is_static() && residual.sum < nearest_.sum)
+      nearest_ = {residual.sum, residual.largest_by_force, problem_.guess()};
+  }
+
   /// @param closing continues only while the residual decreases, as part of a fallback
   Outcome newton(int most, bool closing) {
     std::vector<std::vector<ContactState>> seen;
@@ -112,14 +149,7 @@ class OpenClose {
     least_ = std::numeric_limits<double>::infinity();
     double last_gain = least_;
     int without_gain = 0;
-    bool last_factor = false;  // was used once more
-    // Updated rows differ little: the last factor is used while it reduces the residual by nine tenths each time.
-    constexpr double most_of_it = 0.1;
-    // With unchanged states, a system that has reduced the residual so far will do so again.
-    constexpr double nearly_all = 1e-2;
-    double before = 0.0;
-    double last =
-        std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
+    LastFactor last_factor(std::exchange(followed_, false) && factorized_);
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
       Residual residual = next_residual();
@@ -138,12 +168,7 @@ class OpenClose {
       if (!std::isfinite(residual.largest) ||
           without_gain > (closing ? 0 : settings_.iteration.newton_patience))
         return Outcome::stalled;
-      if (residual.largest < least_) {
-        least_ = residual.largest;
-        if (!closing) best_ = problem_.guess();
-      }
-      if (problem_.scheme().is_static() && residual.sum < nearest_.sum)
-        nearest_ = {residual.sum, residual.largest_by_force, problem_.guess()};
+      note_guess(residual, closing);
       std::vector<ContactState> states = problem_.states();
       const auto [as_before, repeated] = compare_states(problem_.ranks(), states, seen);
       if (!as_before && repeated) {
@@ -152,17 +177,10 @@ class OpenClose {
       }
       if (!seen.empty()) note_changes(seen.back(), states);
       seen.push_back(std::move(states));
-      // The last system is good enough for the residual.
-      const bool falls = residual.largest < most_of_it * last;
-      last = falls ? residual.largest : 0.0;
-      const double worst_before = std::exchange(before, residual.largest);
-      const bool contracts = as_before && residual.largest < nearly_all * worst_before;
-      const bool nearly =
-          falls || contracts ||
-          (as_before && !last_factor && residual.largest <= settings_.iteration.nearly_settled);
-      last_factor = nearly;
+      const bool reused =
+          last_factor.is_good_enough(residual.largest, as_before, settings_.iteration.nearly_settled);
       factorized_ = true;
-      if (!nearly && tangent_.update_factor() != FactorStatus::success) return Outcome::singular;
+      if (!reused && tangent_.update_factor() != FactorStatus::success) return Outcome::singular;
       const Eigen::VectorXd change = tangent_.solve(residual.force, true);
       if (closing) {
         problem_.apply(change, 1.0);

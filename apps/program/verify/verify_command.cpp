@@ -128,6 +128,7 @@ void list_cases(const std::vector<ListedCase>& all, bool as_json, std::ostream& 
     if (listed.scene != nullptr) {
       entry["reference"] = listed.scene->reference;
       entry["source"] = listed.scene->source;
+      entry["group"] = std::filesystem::path(listed.scene->place.origin).parent_path().filename().string();
       entry["scene"] = listed.scene->scene.string();
     }
     list.push_back(std::move(entry));

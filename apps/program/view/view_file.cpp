@@ -48,7 +48,6 @@ Json history_json(const std::filesystem::path& folder) {
           {"data", numbers.base64()}};
 }
 
-
 /// The type of the analysis; for a staged analysis "dynamic" if one of them is, otherwise that of the first. Null:
 /// unknown.
 Json analysis_of(const Json& scene) {

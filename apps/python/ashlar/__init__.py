@@ -91,7 +91,7 @@ class Scene:
 
     def to_dict(self):
         """The scene as used: every key, with defaults."""
-        return __json.loads(self._core.json())
+        return _json.loads(self._core.json())
 
     def simulation(self, threads=1, resume=None):
         """A simulation at its start. It passes through all stages of a staged analysis. The search of a scene that seeks a
@@ -230,7 +230,7 @@ class Simulation:
     def summary(self):
         """The content of summary.json for the present state, a dictionary; after a search with factor_of_safety, load_factor
         or thrust. status is interrupted before the end of the run."""
-        return __json.loads(self._core.summary())
+        return _json.loads(self._core.summary())
 
     @property
     def error(self):

@@ -11,7 +11,7 @@ namespace ashlar {
 /// A column of a table.
 struct Column {
   std::string name;
-  std::string unit;     ///< SI, "1": a number without one
+  std::string unit;     ///< SI, "1": a number without one, empty: a text
   std::string group;    ///< what columns that are drawn together have in common: "velocity"
   std::string meaning;  ///< plain text
   std::string measure;  ///< that it belongs to; empty: the run

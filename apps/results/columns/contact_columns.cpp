@@ -52,21 +52,22 @@ struct TextColumn {
 constexpr const char* closed_points = "closed contact points by type";
 constexpr const char* normal_sum =
     "sum of the normal forces **on block_a**, in the axes of the scene; block_b has the opposite";
-constexpr const char* shear_sum = "the same of friction and shear springs";
+constexpr const char* shear_sum = "sum of the forces of friction and shear springs on block_a";
 constexpr TextColumn columns[] = {
     {"step", "1", "of the frame",
      [](const ContactRow& r) { return fmt::format("{}", r.simulation.steps()); }},
     {"time", "s", "of the frame", [](const ContactRow& r) { return fmt::format("{}", r.simulation.time()); }},
-    {"block_a", "1", "name of the block that stands first in the scene",
+    {"block_a", "", "name of the block that stands first in the scene",
      [](const ContactRow& r) { return block_name(r, r.pair.a); }},
-    {"block_b", "1", "name of the other one", [](const ContactRow& r) { return block_name(r, r.pair.b); }},
+    {"block_b", "", "name of the other block", [](const ContactRow& r) { return block_name(r, r.pair.b); }},
     {"points.face_face", "1", closed_points,
      [](const ContactRow& r) { return fmt::format("{}", r.closed[0]); }},
     {"points.vertex_face", "1", closed_points,
      [](const ContactRow& r) { return fmt::format("{}", r.closed[1]); }},
     {"points.edge_edge", "1", closed_points,
      [](const ContactRow& r) { return fmt::format("{}", r.closed[2]); }},
-    {"area", "m^2", "of these points", [](const ContactRow& r) { return fmt::format("{}", r.area); }},
+    {"area", "m^2", "area of the closed contact points",
+     [](const ContactRow& r) { return fmt::format("{}", r.area); }},
     {"normal_force.x", "N", normal_sum, [](const ContactRow& r) { return fmt::format("{}", r.normal.x()); },
      "x"},
     {"normal_force.y", "N", normal_sum, [](const ContactRow& r) { return fmt::format("{}", r.normal.y()); },

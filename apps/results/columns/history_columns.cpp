@@ -36,18 +36,24 @@ struct RunRow {
 
 using P = MeasuredPoint;
 constexpr ColumnOf<P> point_columns[] = {
-    {"x", "m", "position", "position of the point", [](const P& p) { return p.motion.place.x(); }, "x"},
-    {"y", "m", "position", "position of the point", [](const P& p) { return p.motion.place.y(); }, "y"},
-    {"z", "m", "position", "position of the point", [](const P& p) { return p.motion.place.z(); }, "z"},
-    {"ux", "m", "displacement", "displacement since placement", [](const P& p) { return p.displacement.x(); },
-     "x"},
-    {"uy", "m", "displacement", "displacement since placement", [](const P& p) { return p.displacement.y(); },
-     "y"},
-    {"uz", "m", "displacement", "displacement since placement", [](const P& p) { return p.displacement.z(); },
-     "z"},
-    {"vx", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.x(); }, "x"},
-    {"vy", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.y(); }, "y"},
-    {"vz", "m/s", "velocity", "velocity", [](const P& p) { return p.motion.velocity.z(); }, "z"},
+    {"x", "m", "position", "place of the point; of a block of its centroid",
+     [](const P& p) { return p.motion.place.x(); }, "x"},
+    {"y", "m", "position", "place of the point; of a block of its centroid",
+     [](const P& p) { return p.motion.place.y(); }, "y"},
+    {"z", "m", "position", "place of the point; of a block of its centroid",
+     [](const P& p) { return p.motion.place.z(); }, "z"},
+    {"ux", "m", "displacement",
+     "displacement of the point since it was placed, or since `reset_displacement`",
+     [](const P& p) { return p.displacement.x(); }, "x"},
+    {"uy", "m", "displacement",
+     "displacement of the point since it was placed, or since `reset_displacement`",
+     [](const P& p) { return p.displacement.y(); }, "y"},
+    {"uz", "m", "displacement",
+     "displacement of the point since it was placed, or since `reset_displacement`",
+     [](const P& p) { return p.displacement.z(); }, "z"},
+    {"vx", "m/s", "velocity", "velocity of the point", [](const P& p) { return p.motion.velocity.x(); }, "x"},
+    {"vy", "m/s", "velocity", "velocity of the point", [](const P& p) { return p.motion.velocity.y(); }, "y"},
+    {"vz", "m/s", "velocity", "velocity of the point", [](const P& p) { return p.motion.velocity.z(); }, "z"},
 };
 constexpr const char* rotation = "rotation since placement, axis times angle, up to 180";
 constexpr ColumnOf<P> turn_columns[] = {
@@ -81,9 +87,10 @@ constexpr ColumnOf<PairMeasure> pair_columns[] = {
      [](const PairMeasure& pair) { return pair.shear_force; }},
     {"opening", "m", "opening and slip", "mean gap over the area of the contact points (nan: there are none)",
      [](const PairMeasure& pair) { return pair.opening; }},
-    {"slip", "m", "opening and slip", "mean slip since placement over that area",
+    {"slip", "m", "opening and slip", "mean slip since placement over the area of the contact points",
      [](const PairMeasure& pair) { return pair.slip; }},
-    {"area", "m^2", "area", "closed area", [](const PairMeasure& pair) { return pair.area; }},
+    {"area", "m^2", "area", "area of the closed contact points",
+     [](const PairMeasure& pair) { return pair.area; }},
 };
 
 constexpr ColumnOf<BoltMeasure> bolt_columns[] = {
@@ -98,7 +105,7 @@ constexpr ColumnOf<BoltMeasure> bolt_columns[] = {
      [](const BoltMeasure& bolt) { return static_cast<double>(static_cast<int>(bolt.condition)); }},
 };
 
-constexpr const char* drift_part = "its component";
+constexpr const char* drift_part = "component of the drift";
 constexpr ColumnOf<MeasuredDrift> drift_columns[] = {
     {"drift", "1", "drift",
      "horizontal displacement of the upper level less that of the lower one, over their distance (nan: a "
@@ -111,13 +118,15 @@ constexpr ColumnOf<MeasuredDrift> drift_columns[] = {
 };
 
 constexpr ColumnOf<CrackWidths> crack_columns[] = {
-    {"largest_opening", "m", "opening and slip", "largest distance of faces that touched at the start",
+    {"largest_opening", "m", "opening and slip",
+     "largest opening of faces that touched at the start; closed faces count as 0 (nan: no joint is left)",
      [](const CrackWidths& crack) { return crack.largest_opening; }},
-    {"mean_opening", "m", "opening and slip", "its mean over the area of these faces",
+    {"mean_opening", "m", "opening and slip",
+     "mean opening over the area of the faces that touched at the start; closed faces count as 0",
      [](const CrackWidths& crack) { return crack.mean_opening; }},
-    {"largest_slip", "m", "opening and slip", "largest slip along them",
+    {"largest_slip", "m", "opening and slip", "largest slip along the faces that touched at the start",
      [](const CrackWidths& crack) { return crack.largest_slip; }},
-    {"open_area", "m^2", "area", "area of those that are open",
+    {"open_area", "m^2", "area", "area of the faces that touched at the start and are open at their centre",
      [](const CrackWidths& crack) { return crack.open_area; }},
 };
 
@@ -128,14 +137,17 @@ constexpr ColumnOf<RunRow> time_columns[] = {
 };
 
 using R = RunRow;
-constexpr const char* momentum = "of all moving blocks";
-constexpr const char* about = "of all moving blocks, about `origin`";
+constexpr const char* momentum = "momentum of all moving blocks";
+constexpr const char* about = "angular momentum of all moving blocks about `origin`";
 constexpr ColumnOf<R> run_columns[] = {
-    {"energy.kinetic", "J", "energies", "stored now", [](const R& r) { return r.ledger.kinetic; }},
-    {"energy.elastic", "J", "energies", "stored now in blocks", [](const R& r) { return r.ledger.elastic; }},
-    {"energy.gravity", "J", "energies", "-m g . x, x from `origin` (0 with `gravity_history`)",
+    {"energy.kinetic", "J", "energies", "kinetic energy", [](const R& r) { return r.ledger.kinetic; }},
+    {"energy.elastic", "J", "energies", "elastic energy stored in blocks",
+     [](const R& r) { return r.ledger.elastic; }},
+    {"energy.gravity", "J", "energies",
+     "energy of gravity: -m g . x, x from `origin` (0 with `gravity_history`)",
      [](const R& r) { return r.ledger.gravity; }},
-    {"energy.contact", "J", "energies", "stored now in springs", [](const R& r) { return r.ledger.contact; }},
+    {"energy.contact", "J", "energies", "energy stored in contact springs",
+     [](const R& r) { return r.ledger.contact; }},
     {"energy.friction", "J", "energies",
      "dissipated since the start by sliding (less the work of dilation) and by fracture of bonds",
      [](const R& r) { return r.ledger.friction; }},
@@ -145,7 +157,8 @@ constexpr ColumnOf<R> run_columns[] = {
     {"energy.applied", "J", "energies",
      "work of loads, moving supports and gravity that has a history, since the start",
      [](const R& r) { return r.ledger.applied; }},
-    {"energy.numerical", "J", "energies", "dissipated since the start by the integration in time",
+    {"energy.numerical", "J", "energies",
+     "dissipated since the start by the integrator, with `augmented` by impacts too",
      [](const R& r) { return r.ledger.numerical; }},
     {"energy.residual", "J", "energies", "residual of the energy balance: rounding error",
      [](const R& r) { return r.ledger.residual; }},
@@ -160,18 +173,20 @@ constexpr ColumnOf<R> run_columns[] = {
      [](const R& r) { return r.angular_momentum.z(); }, "z"},
     {"contacts.open", "1", "contacts", "contact points that are open",
      [](const R& r) { return static_cast<double>(r.counts.open); }},
-    {"contacts.locked", "1", "contacts", "that are locked",
+    {"contacts.locked", "1", "contacts",
+     "contact points that are locked, those at their limit in a joint that is not among them: forces within "
+     "a stiff joint are not unique",
      [](const R& r) { return static_cast<double>(r.counts.locked); }},
     {"contacts.sliding", "1", "contacts",
-     "that slide: faster than 1e-6 of the smaller block's size per second, or their joint as a whole is at "
-     "its strength",
+     "contact points that slide: faster than 1e-6 of the smaller block's size per second, or their joint as "
+     "a whole is at its strength (99 % of it, in shear or twist)",
      [](const R& r) { return static_cast<double>(r.counts.sliding); }},
     {"penetration.max", "m", "penetration",
      "true depth of the deepest corner or edge of any block in another one, measured without the contacts; "
      "for edges in "
      "non-convex solids exact to `distance`, in every tenth step and at the end to a hundredth of it",
      [](const R& r) { return r.report.depth; }},
-    {"open_close.iterations", "1", "open-close iterations", "of this step",
+    {"open_close.iterations", "1", "open-close iterations", "open-close iterations of the step",
      [](const R& r) { return static_cast<double>(r.report.iterations); }},
     {"energy.redetection_gained", "J", "energies",
      "spring energy gained since the start when contacts were detected again",

@@ -41,12 +41,13 @@ Vector3 centroid_place(const Simulation& simulation, std::size_t block) {
   return simulation.states()[block].position.transpose() * basis.values(basis.centroid());
 }
 
-/// m along `down`, of the lowest corner of the fixed blocks; infinite: there are none.
-double lowest_of_fixed(const Simulation& simulation, const Vector3& down) {
+/// m along `down`, of the lowest corner of blocks that are held, as placed; infinite: there are none.
+double lowest_of_held(const Simulation& simulation, const Vector3& down) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double lowest = -infinite;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
-    if (simulation.system().present(static_cast<int>(k)) && simulation.blocks()[k].fixed())
+    if (simulation.system().present(static_cast<int>(k)) &&
+        (simulation.blocks()[k].fixed() || simulation.blocks()[k].supported()))
       for (const Vector3& corner : simulation.blocks()[k].solid().mesh().points)
         lowest = std::max(lowest, corner.dot(down));
   return lowest == -infinite ? infinite : lowest;
@@ -85,7 +86,7 @@ MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record)
   MotionVerdict verdict;
   const Vector3 down = down_of(simulation);
   const double gravity = simulation.system().settings().largest_gravity();
-  const double lowest = lowest_of_fixed(simulation, down);
+  const double lowest = lowest_of_held(simulation, down);
   for (const BlockFall& fall : record.falls) {
     if (!may_move(simulation, at(fall.block))) continue;
     const Vector3 way = way_of(simulation, at(fall.block));
@@ -146,7 +147,7 @@ std::string describe(const MotionVerdict& verdict, const Simulation& simulation)
   if (fallen > most_named) text += fmt::format(" and {} more", fallen - most_named);
   const auto left = std::count_if(verdict.fallen.begin(), verdict.fallen.end(),
                                   [](const MotionVerdict::Fallen& of) { return of.left; });
-  if (left > 0) text += fmt::format("; {} below all fixed blocks, where nothing stops them", left);
+  if (left > 0) text += fmt::format("; {} below all blocks that are held", left);
   const int others = verdict.displaced - static_cast<int>(fallen);
   if (others > 0)
     text += fmt::format("; {}{} {} more than a tenth of {} size from where {} placed", others,

@@ -35,7 +35,7 @@ struct MotionVerdict {
     double drop;      ///< m, at the end, along gravity
     double distance;  ///< m, of its centroid from where it was placed
     double runout;    ///< m, the part of it across gravity
-    bool left;        ///< its centroid is below all fixed blocks: nothing will stop it
+    bool left;        ///< its centroid is below all blocks that are fixed or have supports
   };
   std::vector<Fallen> fallen;
   int all = 0;         ///< blocks that may move

@@ -57,13 +57,13 @@ std::string to_string(RunStatus status) {
 std::string motion_in_words(const Simulation& simulation) {
   std::vector<MovingBlock> moving = simulation.moving_blocks();
   if (moving.empty()) return "";
-  std::stable_sort(moving.begin(), moving.end(), [](const MovingBlock& a, const MovingBlock& b) {
-    return a.acceleration.norm() > b.acceleration.norm();
-  });
   const auto name = [&](const MovingBlock& one) {
     return simulation.blocks()[static_cast<std::size_t>(one.block)].name();
   };
-  const MovingBlock& fastest = moving.front();
+  const MovingBlock fastest =
+      *std::max_element(moving.begin(), moving.end(), [](const MovingBlock& a, const MovingBlock& b) {
+        return a.acceleration.norm() < b.acceleration.norm();
+      });
   const std::string acceleration = fmt::format("acceleration {} m/s^2", without_noise(fastest.acceleration));
   // Blocks beside a mechanism yield where it leaves.
   const std::size_t all = moving.size();

@@ -21,7 +21,7 @@ nlohmann::ordered_json verdict_json(const MotionVerdict& verdict, const Simulati
                               {"drop", of.drop},
                               {"distance", of.distance},
                               {"runout", of.runout},
-                              {"below_all_fixed", of.left}});
+                              {"below_all_held", of.left}});
   return json;
 }
 

@@ -52,7 +52,8 @@ HistoryTable read_history(const std::filesystem::path& path, std::size_t most_ro
   std::string line;
   if (!std::getline(input, line)) fail(path, "it cannot be opened or is empty");
   HistoryTable table;
-  for (const std::string& field : split_csv_line(line)) table.columns.push_back(present_name(unmarked_csv_field(field)));
+  for (const std::string& field : split_csv_line(line))
+    table.columns.push_back(present_name(unmarked_csv_field(field)));
   ThinnedSeries<std::vector<double>> rows(most_rows, {count == 0 ? 0 : count - 1});
   for (std::size_t row = 0; row < count && std::getline(input, line); ++row) {
     if (!rows.wants(row)) continue;

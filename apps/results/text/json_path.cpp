@@ -33,14 +33,12 @@ const Json* value_at(const Json& place, std::string_view path) {
     for (const auto& [key, value] : place.items())
       if (const Json* found = below(value, key, path)) return found;
   if (place.is_array())
-    if (const Json* found = entry_at(place, path)) return found;
-  if (place.is_array())
     for (const Json& entry : place)
       if (entry.is_object())
         for (const auto& [key, value] : entry.items())
           if (value.is_string())
             if (const Json* found = below(entry, value.get_ref<const std::string&>(), path)) return found;
-  return nullptr;
+  return place.is_array() ? entry_at(place, path) : nullptr;
 }
 
 }  // namespace ashlar

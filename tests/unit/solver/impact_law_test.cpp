@@ -168,9 +168,8 @@ Simulation tumbling(unsigned seed, bool reversed, double restitution, std::size_
     const Vector3 size(number(0.8, 1.2), number(0.8, 1.2), number(0.6, 1.1));
     const Vector3 low(number(-0.15, 0.15) - 0.5 * size.x(), number(-0.15, 0.15) - 0.5 * size.y(), bottom);
     const Polyhedron solid = random() % 3 == 0 ? l_shaped(low, size) : Polyhedron(make_box(low, low + size));
-    definitions.push_back(
-        block_of(std::string("b").append(std::to_string(k)), solid, Material{2500, 1e9, 0.2},
-                 static_cast<int>(random() % 2)));
+    definitions.push_back(block_of(std::string("b").append(std::to_string(k)), solid,
+                                   Material{2500, 1e9, 0.2}, static_cast<int>(random() % 2)));
     bottom += size.z() + number(0.05, 0.3);
   }
   if (reversed) std::reverse(definitions.begin(), definitions.end());

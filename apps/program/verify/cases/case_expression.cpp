@@ -1,6 +1,7 @@
 #include "apps/program/verify/cases/case_expression.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -170,7 +171,9 @@ class CaseEvaluation {
 
   [[nodiscard]] OfRow result(std::string_view name, std::size_t offset) const {
     if (const auto index = column(name))
-      return [this, index = *index](std::size_t row) { return results_.rows[row][index]; };
+      return [this, index = *index](std::size_t row) {
+        return row < results_.rows.size() ? results_.rows[row][index] : no_value;
+      };
     return constant(number_of_summary(name, offset));
   }
 
@@ -241,10 +244,14 @@ class CaseEvaluation {
 
   [[nodiscard]] Series series(Part part, double from, double to) const {
     const std::size_t time = *column("time");
+    const std::optional<std::size_t> stage = column("stage");
+    double begun = 0.0;  // s, when the present stage began
     const OfRow expression = compiled(part);
     Series all;
     for (std::size_t row = 0; row < results_.rows.size(); ++row) {
-      const double t = results_.rows[row][time];
+      if (stage && row > 0 && results_.rows[row][*stage] != results_.rows[row - 1][*stage])
+        begun += results_.rows[row - 1][time];
+      const double t = begun + results_.rows[row][time];
       if (t < from || t > to) continue;
       const double v = expression(row);
       if (std::isnan(v)) continue;
@@ -282,10 +289,15 @@ class CaseEvaluation {
   }
 
   static double crossing(const Series& all, int number) {
-    for (std::size_t k = 1; k < all.values.size(); ++k) {
-      if ((all.values[k] > 0.0) == (all.values[k - 1] > 0.0) || --number > 0) continue;
-      const double share = all.values[k - 1] / (all.values[k - 1] - all.values[k]);
-      return all.times[k - 1] + share * (all.times[k] - all.times[k - 1]);
+    // Zeros have no sign: what starts at zero has not crossed it.
+    std::optional<std::size_t> last;
+    for (std::size_t k = 0; k < all.values.size(); ++k) {
+      if (all.values[k] == 0.0) continue;
+      const std::optional<std::size_t> before = std::exchange(last, k);
+      if (!before || (all.values[k] > 0.0) == (all.values[*before] > 0.0) || --number > 0) continue;
+      if (*before + 1 < k) return all.times[*before + 1];
+      const double share = all.values[*before] / (all.values[*before] - all.values[k]);
+      return all.times[*before] + share * (all.times[k] - all.times[*before]);
     }
     return no_value;
   }
@@ -311,10 +323,13 @@ class CaseEvaluation {
   [[nodiscard]] double function(std::string_view name, std::span<const Part> arguments,
                                 std::size_t offset) const {
     const std::vector<std::size_t>& allowed = argument_counts().find(name)->second;
-    if (std::find(allowed.begin(), allowed.end(), arguments.size()) == allowed.end() || results_.rows.empty())
-      throw FormulaError(
-          fmt::format("{} has {} arguments, {} are needed", name, arguments.size(), allowed.back()), offset);
-    const std::size_t last = results_.rows.size() - 1;
+    if (std::find(allowed.begin(), allowed.end(), arguments.size()) == allowed.end())
+      throw FormulaError(fmt::format("{} has {} arguments, {} are needed", name, arguments.size(),
+                                     fmt::join(allowed, " or ")),
+                         offset);
+    // A run that failed before its first row.
+    if (results_.rows.empty() && name != "middle" && name != "known") return no_value;
+    const std::size_t last = results_.rows.empty() ? 0 : results_.rows.size() - 1;
     const auto number = [&](std::size_t k) { return value(arguments[k], last); };
     if (name == "middle") return middle(arguments[0]);
     if (name == "known") return std::isnan(number(0)) ? 0.0 : 1.0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <utility>
@@ -204,13 +205,17 @@ class CaseReader {
                     const toml::table* define) {
     std::optional<SceneDocument> document = document_of(result.scene, result.place, reading_.diagnostics());
     if (!document) return;
+    if (varied.empty())
+      reading_.error(result.place,
+                     fmt::format("case {} has no variant, vary with values is needed", result.name));
     const toml::table* parameters = document->tree["parameters"].as_table();
     std::vector<std::string> files = files_;
     files.insert(files.end(), document->files.begin(), document->files.end());
     for (const std::vector<Chosen>& chosen : varied) {
       toml::table values = parameters == nullptr ? toml::table{} : *parameters;
       CaseVariant& variant = result.variants.emplace_back();
-      for (const Chosen& value : chosen) {
+      for (Chosen value : chosen) {
+        if (value.key.starts_with("parameters.")) value.key.erase(0, std::strlen("parameters."));
         const bool is_parameter = value.key.find('.') == std::string::npos;
         variant.overrides.push_back((is_parameter ? "parameters." : "") + value.key + "=" +
                                     toml_text(*value.value));
@@ -223,8 +228,13 @@ class CaseReader {
         values.insert_or_assign(value.key, *value.value);
       }
       if (define != nullptr)
-        for (auto entry = define->cbegin(); entry != define->cend(); ++entry)
+        for (auto entry = define->cbegin(); entry != define->cend(); ++entry) {
+          if (values.contains(entry->first.str()))
+            reading_.error(
+                entry->second,
+                fmt::format("{} is a parameter of the scene, another name is needed", entry->first.str()));
           values.insert_or_assign(entry->first, entry->second);
+        }
       toml::table whole;
       whole.insert("parameters", std::move(values));
       ScenePlaces places;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -32,10 +33,17 @@ std::string folder_name(const std::string& label) {
   return name;
 }
 
+/// A word of a shell's command line.
+std::string shell_word(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
 /// Writes how a variant is repeated, with the scene where it is: it may include other files.
 void leave_command(const SceneCase& chosen, const CaseVariant& variant, const std::filesystem::path& folder) {
-  std::string command = fmt::format("ashlar run '{}'", std::filesystem::absolute(chosen.scene).string());
-  for (const std::string& change : variant.overrides) command += fmt::format(" --set '{}'", change);
+  std::string command = "ashlar run " + shell_word(std::filesystem::absolute(chosen.scene).string());
+  for (const std::string& change : variant.overrides) command += " --set " + shell_word(change);
   write_file_atomically(folder / "command.txt", command + "\n", Durability::process);
 }
 
@@ -84,14 +92,17 @@ class CheckedVariant {
     const std::string status = text_at("summary.status");
     bool judges_status = false;
     for (const CaseCheck& check : chosen_.checks) {
-      judges_status = judges_status || check.value.text == "summary.status";
       if (check.when.given() && number(check.when, false) == 0.0) continue;
+      judges_status = judges_status || check.value.text == "summary.status";
       done.push_back(result_of(check));
     }
     for (const char* bad : {"failed", "not converged", "interrupted"})
       if (!judges_status && status == bad)
         done.push_back({fmt::format("ended as {}: {}{}", status, text_at("summary.message"), suffix()),
                         not_known, not_known, not_known, 0.0});
+    if (done.empty())
+      diagnostics_.error(chosen_.place, fmt::format("case {}{}: no check holds for it, one is needed",
+                                                    chosen_.name, suffix()));
     return done;
   }
 
@@ -125,6 +136,10 @@ class CheckedVariant {
     const std::string what = check.what + suffix();
     if (check.kind == CaseCheck::Kind::is) {
       const std::string found = text_at(check.value.text);
+      if (found.empty())
+        diagnostics_.error(check.value.place,
+                           fmt::format("case {}{}: no text ({}), a path to a text of summary.json is needed",
+                                       chosen_.name, suffix(), check.value.text));
       const bool same = found == check.expected.text;
       return check_absolute(same ? what : fmt::format("{} (is {})", what, found), same ? 1.0 : 0.0, 1.0, 0.0);
     }
@@ -150,9 +165,15 @@ class CheckedVariant {
 std::vector<VerificationCheck> run_case(const SceneCase& chosen, const std::filesystem::path& kept,
                                         Diagnostics& diagnostics, const Placement& placement) {
   std::vector<VerificationCheck> checks;
+  std::map<std::string, int> names;  // of folders
   for (const CaseVariant& variant : chosen.variants) {
-    const std::filesystem::path folder =
-        kept.empty() ? kept : kept / chosen.name / folder_name(variant.label);
+    std::filesystem::path folder;
+    if (!kept.empty()) {
+      // Labels are short: two variants may have the same.
+      const std::string name = folder_name(variant.label);
+      const int number = ++names[name];
+      folder = kept / chosen.name / (number == 1 ? name : fmt::format("{}-{}", name, number));
+    }
     std::optional<CaseResults> results = results_of(chosen, variant, folder, placement, diagnostics);
     if (!results) continue;
     for (VerificationCheck& check :

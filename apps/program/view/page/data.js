@@ -138,11 +138,11 @@ function decodeCells(bytes) {
   return cells;
 }
 
-function decodeHistory({columns, rows}, bytes) {
+function decodeHistory({columns, about, rows}, bytes) {
   const reader = new NumberReader(bytes);
   const values = {};
   for (const name of columns) values[name] = Array.from({length: rows}, () => reader.float());
-  return {columns, rows, values};
+  return {columns, about, rows, values};
 }
 
 /// Runs of points of one block, for PackedNumbers::add_displacements.

@@ -59,7 +59,7 @@ TEST_F(VtkhdfRun, FramesAreThoseOfVtuFiles) {
   ASSERT_EQ(run("many", more), exit_status::done) << faults_;
   ASSERT_EQ(run_in_one_file("one", more), exit_status::done) << faults_;
   EXPECT_THAT(files("one"), ElementsAre(".ashlar", "checkpoint", "contacts.csv", "history.csv",
-                                        "results.vtkhdf", "summary.json"));
+                                        "history.units.json", "results.vtkhdf", "summary.json"));
   const std::unique_ptr<StoredFrames> many = open_stored_frames(folder_ / "many");
   const std::unique_ptr<StoredFrames> one = open_stored_frames(folder_ / "one");
   for (const char* series : {"blocks", "surfaces", "contacts", "joints", "loads"}) {
@@ -153,10 +153,11 @@ TEST_F(VtkhdfRun, FilesOfTheOtherFormatAreRemoved) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   ASSERT_EQ(run_in_one_file("out", {"--force"}), exit_status::done) << faults_;
   EXPECT_THAT(files("out"), ElementsAre(".ashlar", "checkpoint", "contacts.csv", "history.csv",
-                                        "results.vtkhdf", "summary.json"));
+                                        "history.units.json", "results.vtkhdf", "summary.json"));
   ASSERT_EQ(run("out", {"--force"}), exit_status::done) << faults_;
-  EXPECT_THAT(files("out"), ElementsAre(".ashlar", "blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd",
-                                        "frames", "history.csv", "joints.pvd", "loads.pvd", "summary.json"));
+  EXPECT_THAT(files("out"),
+              ElementsAre(".ashlar", "blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd", "frames",
+                          "history.csv", "history.units.json", "joints.pvd", "loads.pvd", "summary.json"));
 }
 
 TEST_F(VtkhdfRun, AFileThatWasReplacedEndsTheRun) {

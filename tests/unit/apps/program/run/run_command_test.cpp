@@ -54,7 +54,8 @@ TEST_F(RunCommand, HistoryHasARowPerStepAndTheColumnsOfRecord) {
             "energy.numerical,"
             "energy.residual,momentum.x,momentum.y,momentum.z,angular_momentum.x,angular_momentum.y,"
             "angular_momentum.z,contacts.open,contacts.locked,contacts.sliding,penetration.max,"
-            "open_close.iterations,energy.redetection_gained,energy.redetection_lost,tip.sxx,tip.syy,tip.szz,tip.sxy,"
+            "open_close.iterations,energy.redetection_gained,energy.redetection_lost,tip.sxx,tip.syy,tip.szz,"
+            "tip.sxy,"
             "tip.syz,tip.sxz,tip.speed");
   EXPECT_THAT(rows[1], StartsWith("0,0,0,4,0,0,0,0,0,0,0,0,"));
   EXPECT_THAT(rows[41], StartsWith("40,0.04"));

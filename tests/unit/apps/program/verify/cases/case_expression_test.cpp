@@ -54,6 +54,9 @@ TEST(CaseExpression, Rows) {
   EXPECT_NEAR(value("largest(time - before(time))"), 0.1, 1e-15);
   EXPECT_NEAR(value("rising(time, 'a b.v', 1)"), 0.8, 1e-12);
   EXPECT_TRUE(std::isnan(value("crossing('a b.v', 3)")));
+  // A start at zero is no crossing; a row at zero is where it crosses.
+  EXPECT_TRUE(std::isnan(value("crossing(time, 1)")));
+  EXPECT_NEAR(value("crossing(time - 0.5, 1)"), 0.5, 1e-12);
 }
 
 TEST(CaseExpression, RowsWithoutValueAreLeftOut) {
