@@ -32,8 +32,9 @@ using ::testing::StartsWith;
 
 TEST_F(RunCommand, WritesTheResultFolder) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  EXPECT_THAT(files("out"), ElementsAre(".ashlar", "blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd",
-                                        "frames", "history.csv", "joints.pvd", "loads.pvd", "summary.json"));
+  EXPECT_THAT(files("out"),
+              ElementsAre(".ashlar", "blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd", "frames",
+                          "history.csv", "history.units.json", "joints.pvd", "loads.pvd", "summary.json"));
   EXPECT_THAT(
       files("out/frames"),
       ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "blocks_0000020.vtu", "blocks_0000030.vtu",
