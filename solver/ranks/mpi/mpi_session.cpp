@@ -28,6 +28,8 @@ MpiSession::MpiSession(const std::vector<std::string>& options) {
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   ranks_ = make_mpi_ranks();
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+  // Scotch's partitions, and orderings of MUMPS by it, depend on its threads: one for each core it sees, if not told.
+  setenv("SCOTCH_PTHREAD_NUMBER", "1", 1);
   // Signals are the program's, which saves a state and ends.
   std::vector<std::string> words = {"ashlar", "-no_signal_handler"};
   words.insert(words.end(), options.begin(), options.end());
