@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/results/columns/history_columns.hpp"
 #include "apps/results/tables/history_table.hpp"
 #include "apps/results/text/csv_text.hpp"
 #include "apps/results/text/json_path.hpp"
@@ -24,7 +25,8 @@ struct RunValues {
   Json summary;                                        ///< null: none
   std::vector<std::pair<std::string, double>> at_end;  ///< columns of the history
 
-  [[nodiscard]] std::optional<double> find(const std::string& name) const {
+  [[nodiscard]] std::optional<double> find(const std::string& given) const {
+    const std::string name = present_name(given);
     const auto column =
         std::find_if(at_end.begin(), at_end.end(), [&](const auto& entry) { return entry.first == name; });
     if (column != at_end.end()) return column->second;

@@ -38,6 +38,11 @@ double processor_time() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+std::filesystem::path program_file() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored);
+}
+
 bool errors_go_to_a_terminal() {
   return ::isatty(STDERR_FILENO) != 0;
 }

@@ -18,6 +18,9 @@ namespace ashlar {
 /// Processor time of all its threads so far, s. Other programs hardly change it.
 [[nodiscard]] double processor_time();
 
+/// File of its program, links followed; empty if the system does not tell.
+[[nodiscard]] std::filesystem::path program_file();
+
 [[nodiscard]] bool errors_go_to_a_terminal();
 /// Writes to standard error at once, without allocating anything: in signal handlers too. Failures are ignored.
 void write_to_errors(std::string_view text) noexcept;

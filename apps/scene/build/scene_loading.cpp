@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "apps/scene/build/scene_placement.hpp"
 #include "apps/scene/build/scene_reader.hpp"
 #include "apps/scene/check/base_motion.hpp"
 #include "apps/scene/check/boundary_checks.hpp"
@@ -20,7 +21,6 @@
 #include "apps/scene/expand/scene_cuts.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
-#include "apps/scene/model/scene_placement.hpp"
 #include "apps/scene/read/assignments.hpp"
 
 namespace ashlar {

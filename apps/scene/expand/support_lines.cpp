@@ -146,9 +146,10 @@ void find_ends(const LinesInBlocks& blocks, const char* what, SupportLine& line)
 class PatternHeads {
  public:
   PatternHeads(const SceneBolt::Pattern& pattern, const LinesInBlocks& blocks)
-      : pattern_(pattern), blocks_(blocks), normal_(pattern.plane.normal.stableNormalized()) {
-    const Vector3 level = Vector3::UnitZ().cross(normal_);
-    along_ = level.norm() > end_share ? Vector3(level.normalized()) : Vector3(Vector3::UnitX());
+      : pattern_(pattern),
+        blocks_(blocks),
+        normal_(pattern.plane.normal.stableNormalized()),
+        along_(pattern_row(normal_)) {
     across_ = normal_.cross(along_);
     direction_ = pattern.direction ? Vector3(pattern.direction->stableNormalized()) : Vector3(-normal_);
     for (std::size_t k = 0; k < blocks_.count(); ++k)
@@ -282,6 +283,12 @@ void add_bolt(const SceneBolt& bolt, const std::string& path, const LinesInBlock
 }
 
 }  // namespace
+
+Vector3 pattern_row(const Vector3& normal) {
+  constexpr double horizontal = 1e-6;  // sine of the slope of a plane that counts as horizontal
+  const Vector3 level = Vector3::UnitZ().cross(normal.stableNormalized());
+  return level.norm() > horizontal ? Vector3(level.normalized()) : Vector3(Vector3::UnitX());
+}
 
 std::vector<SupportLine> support_lines(const Scene& scene, const std::vector<const Polyhedron*>& solids) {
   std::vector<SupportLine> lines;

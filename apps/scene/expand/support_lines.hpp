@@ -29,6 +29,10 @@ struct SupportLine {
   std::string fault;
 };
 
+/// Direction of the rows of a pattern of bolts, unit length: horizontal, along x in a horizontal plane.
+/// @param normal of its plane, not zero
+[[nodiscard]] Vector3 pattern_row(const Vector3& normal);
+
 /// All bolts, patterns expanded, then all props, in the order of the scene. The order does not depend on the stage.
 /// Entries that are faulty in themselves have no lines.
 /// @param solids by block; null: not built

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/results/system/this_process.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/include.hpp"
 #include "apps/scene/toml/input_file.hpp"
@@ -92,7 +93,7 @@ std::string toml_text(const toml::node& node) {
   return text;
 }
 
-/// What a variant is called: the last part of a path, and a text without quotes.
+/// The name of a choice in labels: the last part of its path, and its value without quotes.
 std::string label_of(const Chosen& chosen) {
   const bool number = chosen.value->is_number();
   std::string value = number ? fmt::format("{:.6g}", number_in(*chosen.value)) : toml_text(*chosen.value);
@@ -108,7 +109,8 @@ class CaseReader {
   CaseReader(TomlReading& reading, std::vector<std::string> files, std::filesystem::path folder)
       : reading_(reading), files_(std::move(files)), folder_(std::move(folder)) {}
 
-  [[nodiscard]] SceneCase read(const std::string& name, TomlTableReader table) {
+  /// @param source the table, which `table` reads
+  [[nodiscard]] SceneCase read(const std::string& name, const toml::table& source, TomlTableReader table) {
     SceneCase result;
     result.name = name;
     result.place = reading_.places().key(name);
@@ -120,7 +122,7 @@ class CaseReader {
     (void)table.read_text("source", result.source);
     if (table.read_text("scene", scene)) result.scene = folder_ / scene;
     const toml::table* define = table.table_at("define");
-    const auto varied = read_varied(table);
+    const auto varied = read_varied(source, table);
     result.checks = table.read_tables("check", [&](TomlTableReader& check) { return read_check(check); });
     if (result.checks.empty())
       reading_.error(result.place, fmt::format("case {} has no check, one is needed", name));
@@ -129,24 +131,18 @@ class CaseReader {
   }
 
  private:
-  std::vector<std::vector<Chosen>> read_varied(TomlTableReader& table) {
+  /// The variants; one without values if there is no `vary`. Its entries have free names, which no reader knows.
+  static std::vector<std::vector<Chosen>> read_varied(const toml::table& source, TomlTableReader& table) {
     if (!table.given("vary")) return {{}};
     std::vector<std::vector<Chosen>> all;
-    for (const toml::table* entry : tables_at(table, "vary"))
-      for (std::vector<Chosen>& variant : combinations(*entry)) all.push_back(std::move(variant));
+    const toml::array* list = source.get_as<toml::array>("vary");
+    if (list == nullptr || !list->is_array_of_tables()) {
+      table.error_at_value("vary", "vary has the wrong type, an array of tables is needed");
+      return {{}};
+    }
+    for (const toml::node& entry : *list)
+      for (std::vector<Chosen>& variant : combinations(*entry.as_table())) all.push_back(std::move(variant));
     return all;
-  }
-
-  /// Tables of an array whose keys are free names.
-  std::vector<const toml::table*> tables_at(TomlTableReader& table, const char* key) {
-    std::vector<const toml::table*> result;
-    const toml::node* node = source_ == nullptr ? nullptr : source_->get(key);
-    const toml::array* list = node == nullptr ? nullptr : node->as_array();
-    for (std::size_t k = 0; list != nullptr && k < list->size(); ++k)
-      if (const toml::table* entry = (*list)[k].as_table()) result.push_back(entry);
-    if (list == nullptr || result.size() != list->size())
-      table.error_at_value(key, fmt::format("{} has the wrong type, an array of tables is needed", key));
-    return result;
   }
 
   CaseText read_expression(TomlTableReader& table, const char* key) {
@@ -237,21 +233,20 @@ class CaseReader {
         }
       toml::table whole;
       whole.insert("parameters", std::move(values));
+      // Copies of nodes have no places: faults have that of the table of definitions.
+      Diagnostics faults;
       ScenePlaces places;
-      TomlReading reading(files, reading_.diagnostics(), places);
+      TomlReading reading(files, faults, places);
       variant.names = read_parameters(whole, reading);
+      for (const Diagnostic& fault : faults.sorted())
+        reading_.error(reading_.places().key(result.name + ".define"),
+                       fmt::format("case {}: {}", result.name, fault.message));
     }
   }
 
- public:
-  /// @param source of the case that is read next
-  void set_source(const toml::table& source) { source_ = &source; }
-
- private:
   TomlReading& reading_;
   std::vector<std::string> files_;
   std::filesystem::path folder_;
-  const toml::table* source_ = nullptr;
 };
 
 std::vector<SceneCase> read_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
@@ -268,8 +263,7 @@ std::vector<SceneCase> read_file(const std::filesystem::path& file, Diagnostics&
     const std::string name(key->str());
     std::optional<TomlTableReader> table = top.table(name);
     if (!table) continue;
-    reader.set_source(*node->as_table());
-    cases.push_back(reader.read(name, std::move(*table)));
+    cases.push_back(reader.read(name, *node->as_table(), std::move(*table)));
   }
   reading.report_unknown_keys();
   return cases;
@@ -310,8 +304,8 @@ std::vector<SceneCase> read_cases(const std::filesystem::path& folder, Diagnosti
 
 std::filesystem::path own_cases() {
   std::error_code ignored;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const std::filesystem::path folder = program.parent_path().parent_path() / "share/ashlar/verification";
+  const std::filesystem::path folder =
+      program_file().parent_path().parent_path() / "share/ashlar/verification";
   return std::filesystem::is_directory(folder, ignored) ? folder : std::filesystem::path();
 }
 

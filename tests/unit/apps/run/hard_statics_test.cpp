@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -34,6 +35,70 @@ masonry = [{ name = "wall", kind = "wall", material = "stone", order = 0, length
   const nlohmann::json moving = summary_of("parameters = { alpha = 0.2002 }" + wall);
   EXPECT_EQ(moving.at("status"), "moving");
   EXPECT_LE(moving.at("steps"), 16);
+}
+
+// The stress of pure bending balances the moments at the ends of a beam that is held there: it stays as it is, and the forces
+// on its unknowns are rounding. The beam beside it bends until its stress is gone, by the curvature k: its ends rise by
+// k x^2 / 2.
+TEST_F(HardStatics, AHeldBeamInBalanceDoesNotKeepAnotherFromConverging) {
+  for (const int order : {2, 3}) {
+    const nlohmann::json summary = summary_of(fmt::format(R"(
+analysis = {{ type = "static", gravity = [0, 0, 0] }}
+contact = {{ friction_angle = 30 }}
+initial_stress = {{ stress = ["= -3e9*1e-4*z", 0, 0, 0, 0, 0] }}
+material = [{{ name = "rock", density = 2000, young_modulus = 3e9, poisson_ratio = 0.25 }}]
+measure = [{{ name = "end", block = "free", point = [2, 3, 0] }}]
+[[block]]
+name = "held"
+material = "rock"
+order = {0}
+box = {{ min = [-2, -0.5, -0.4], max = [2, 0.5, 0.4] }}
+fix = [
+  {{ plane = {{ point = [-2, 0, 0], normal = [1, 0, 0] }} }},
+  {{ plane = {{ point = [2, 0, 0], normal = [1, 0, 0] }} }},
+]
+[[block]]
+name = "free"
+material = "rock"
+order = {0}
+box = {{ min = [-2, 2.5, -0.4], max = [2, 3.5, 0.4] }}
+fix = [
+  {{ point = [0, 3, 0] }},
+  {{ point = [2, 3, 0], components = ["y"] }},
+  {{ point = [0, 3, 0.4], components = ["x", "y"] }},
+]
+)",
+                                                          order));
+    EXPECT_EQ(summary.at("status"), "equilibrium") << order;
+    EXPECT_LE(summary.at("steps"), 30) << order;
+    EXPECT_NEAR(std::abs(column("out/history.csv", "end.uz").back()), 0.5 * 1e-4 * 4.0, 1e-7) << order;
+  }
+}
+
+/// A cube that falls beside a wall, and a plate on a slope with a = g (sin 30 - cos 30 tan phi), 0.5 or 5 % of g.
+TEST_F(HardStatics, ThoseThatYieldAreToldApartFromThoseThatMove) {
+  const auto message_of = [&](double acceleration) {
+    const double degree = std::acos(-1.0) / 180.0;
+    const double tangent = std::tan(30 * degree) - acceleration / (9.81 * std::cos(30 * degree));
+    return summary_of(fmt::format("analysis = {{ type = \"static\" }}\ncontact = {{ friction_angle = {} }}\n",
+                                  std::atan(tangent) / degree) +
+                      rock_text + plate_text + R"([[block]]
+name = "falling"
+material = "rock"
+box = { min = [20, 0, 0], max = [21, 1, 1] }
+[[block]]
+name = "wall"
+fixed = true
+box = { min = [21, 0, 0], max = [22, 1, 1] }
+)")
+        .at("message")
+        .get<std::string>();
+  };
+  const std::string apart = message_of(0.05), both = message_of(0.5);
+  EXPECT_EQ(apart.find("no equilibrium: block falling moves, acceleration ["), 0U) << apart;
+  EXPECT_NE(apart.find("; 1 yields at less than 1 % of it"), std::string::npos) << apart;
+  EXPECT_EQ(both.find("no equilibrium: 2 of 2 blocks move: "), 0U) << both;
+  EXPECT_EQ(both.find("yield"), std::string::npos) << both;
 }
 
 // Solid walls of random sizes turn over at a share t / h of their weight, wherever their joints are.

@@ -76,10 +76,33 @@ TEST_F(MotionVerdictOfRun, ABlockThatSlidesMoves) {
   EXPECT_NEAR(verdict.at("speed"), a, 0.02 * a);
   ASSERT_EQ(verdict.at("fallen").size(), 1U);
   EXPECT_NEAR(verdict.at("fallen")[0].at("drop"), 0.5 * a * std::sin(40 * degree), 0.03);
+  EXPECT_NEAR(verdict.at("fallen")[0].at("runout"), 0.5 * a * std::cos(40 * degree), 0.03);
+  EXPECT_EQ(verdict.at("fallen")[0].at("below_all_held"), false);
   EXPECT_NEAR(summary.at("peaks").at("top.vx").at("largest").at("value"), a, 0.02 * a);
+  EXPECT_EQ(summary.at("peaks").at("top.vx").at("unit"), "m/s");
   EXPECT_NEAR(summary.at("peaks").at("top.vx").at("largest").at("time"), 1.0, 1e-9);
   EXPECT_NEAR(summary.at("peaks").at("top.x").at("least").at("value"), 0.5, 1e-6);
   EXPECT_NEAR(summary.at("peaks").at("top.x").at("least").at("time"), 0.0, 2e-3);
+}
+
+// Beside the floor it falls by 4.9 m in a second, below the floor and below a beam that is held at its end.
+TEST_F(MotionVerdictOfRun, ABlockBelowAllThatIsHeldIsTold) {
+  const auto below = [&](const char* low) {
+    std::string scene = cube(0.0, 1.0, "[0, 0, -9.81]", "{ friction_angle = 30 }");
+    const std::string floor = "box = { min = [-5, -5, -1], max = [9, 5, 0] }";
+    scene.replace(scene.find(floor), floor.size(), "box = { min = [-5, -5, -1], max = [-2, 5, 0] }");
+    scene += std::string("[[block]]\nname = \"beam\"\nmaterial = \"stone\"\nbox = { min = [-5, 0, ") + low +
+             "], max = [-4, 1, -1.5] }\nfix = [{ plane = { point = [-5, 0, 0], normal = [1, 0, 0] } }]\n";
+    const auto summary = summary_of(scene);
+    const nlohmann::json& fallen = summary.at("verdict").at("fallen")[0];
+    EXPECT_EQ(fallen.at("block"), "cube");
+    EXPECT_EQ(
+        summary.at("message").get<std::string>().find("below all blocks that are held") != std::string::npos,
+        fallen.at("below_all_held").get<bool>());
+    return fallen.at("below_all_held").get<bool>();
+  };
+  EXPECT_TRUE(below("-2"));
+  EXPECT_FALSE(below("-9"));
 }
 
 TEST_F(MotionVerdictOfRun, WhatStandsIsAtRest) {

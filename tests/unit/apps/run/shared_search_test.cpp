@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/results/columns/summary_units.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_setup.hpp"
 #include "apps/run/trial_folder.hpp"
@@ -170,6 +171,7 @@ TEST(SharedSearch, StaticAnalysesAreShared) {
     EXPECT_EQ(by_ranks.at("joints"), found.at("joints"));
     EXPECT_EQ(shared.at("status"), alone.at("status"));
     EXPECT_EQ(message(shared), message(alone));
+    EXPECT_TRUE(undeclared_numbers(nlohmann::ordered_json::parse(shared.dump())).empty());
   }
 }
 

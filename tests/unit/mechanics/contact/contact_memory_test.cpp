@@ -45,6 +45,25 @@ TEST(ContactMemory, SlipGoesWithAVertexOverAnEdgeThatIsNotSharpAndABondDoesNot) 
   EXPECT_FALSE(next.intact);
 }
 
+/// The surfaces at an intact bond are apart by its dilation and its opening; a point that is open, or whose bond has failed,
+/// transmits nothing across its gap.
+TEST(ContactMemory, ABondInTensionReachesAcrossItsOpening) {
+  const auto most_of = [](ContactState state, bool intact) {
+    PointMemory point = slipped({1e-6, 0, 0});
+    point.dilation = 2e-3;
+    point.compression = -5e-3;
+    point.state = state;
+    point.intact = intact;
+    ContactMemory memory;
+    memory.store({point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})}, {point}, 0.0, {});
+    return memory.most_dilation();
+  };
+  EXPECT_EQ(most_of(ContactState::locked, true), 7e-3);
+  EXPECT_EQ(most_of(ContactState::sliding, true), 7e-3);
+  EXPECT_EQ(most_of(ContactState::open, true), 2e-3);
+  EXPECT_EQ(most_of(ContactState::locked, false), 2e-3);
+}
+
 TEST(ContactMemory, DilationGoesWithSlip) {
   PointMemory low = slipped({1e-6, 0, 0}), high = low;
   low.dilation = 2e-3;

@@ -79,6 +79,22 @@ TEST(SupportMovement, OfAFlatArchEndsWhereItsHingesAreInLine) {
   }
 }
 
+/// The last place of a movement up to a limit has the thrust and the forces of that place.
+TEST(SupportMovement, EndsWithTheForcesOfItsLimit) {
+  const double half = 2.0, depth = 0.5, bar = std::hypot(half, depth),
+               weight = rock.density * g * half * depth;
+  for (int k = 1; k <= 24; ++k) {
+    const double limit = 0.005 * k;
+    const SupportPath path = moved(flat_arch(), 2, {std::nullopt, limit, 1e-5}).out;
+    EXPECT_EQ(path.end, MovementEnd::reaches_limit) << limit;
+    ASSERT_FALSE(path.places.empty());
+    EXPECT_NEAR(path.places.back().moved, limit, 1e-9);
+    const double reach = half + 0.5 * limit, rise = std::sqrt(bar * bar - reach * reach);
+    EXPECT_NEAR(path.places.back().thrust * 2.0 * rise / (weight * reach), 1.0, 1e-3) << limit;
+    EXPECT_FALSE(path.contacts.empty()) << limit;
+  }
+}
+
 TEST(SupportMovement, IsInTheBracketWhateverItsTolerance) {
   const double value = 2.0 * (std::hypot(2.0, 0.5) - 2.0);
   for (const double tolerance : {1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {

@@ -109,6 +109,16 @@ TEST_F(KeyBlocks, MechanismsHaveTheBolts) {
   }
 }
 
+TEST_F(KeyBlocks, WithoutMechanismsTheFactorsTriedAreTold) {
+  EXPECT_TRUE(blocks("", "", {"--removable", "0,0,-1", "--mechanisms", "5"}).at("mechanisms").empty());
+  ASSERT_EQ(command({"blocks", scene_.string(), "--removable", "0,0,-1", "--mechanisms", "5", "--set",
+                     "analysis.safety={ upper = 3 }"}),
+            exit_status::done)
+      << faults_;
+  EXPECT_THAT(printed_,
+              HasSubstr("0 mechanisms by limit analysis up to a factor of 3 (analysis.safety.upper)"));
+}
+
 TEST_F(KeyBlocks, FaultsAreTold) {
   blocks("", "", {"--removable", "1,0,-1", "--border", "w=1"}, exit_status::bad_input);
   EXPECT_THAT(faults_, HasSubstr("--border is no plane across an axis (w=1)"));

@@ -150,6 +150,12 @@ pair = ["floor", "cube"]
                    checks + "]\n");
     return verify({.folder = folder.path()});
   }
+  [[nodiscard]] Answer verified_table(const std::string& keys) const {
+    write_text(folder / "cases.toml",
+               "[cube-weight]\nabout = \"a cube\"\nreference = \"its weight\"\nsource = \"statics\"\n" +
+                   keys + "\n");
+    return verify({.folder = folder.path()});
+  }
   TemporaryFolder folder;
 };
 
@@ -165,6 +171,84 @@ TEST_F(OwnCases, RunAndAreKept) {
       fmt::format("ashlar run '{}' --set 'parameters.density=3000'\n", (folder / "cube.toml").string()));
   EXPECT_TRUE(std::filesystem::exists(folder / "kept/cube-weight/cube.toml"));
   EXPECT_TRUE(std::filesystem::exists(folder / "kept/cube-weight/density_2000/history.csv"));
+}
+
+/// Variants, definitions, conditions, bounds and texts, and a command that a shell reads.
+TEST_F(OwnCases, HaveVariantsAndKindsOfChecks) {
+  const Answer right = verified_table(R"(scene = "cube.toml"
+vary = [{ density = [2000, "= 1500*2"], "contact.friction_angle" = [10, 20] }, { density = 1000 }]
+define = { W = "= 8*density*g", g = 9.81 }
+check = [
+  { what = "weight", value = "base.normal_force", expect = "W", absolute = "W*1e-9" },
+  { what = "light", when = "density < 1500", value = "base.normal_force", at_most = "8*1500*9.81" },
+  { what = "heavy", when = "density > 2500", value = "base.normal_force", at_least = 160000 },
+  { value = "summary.status", is = "equilibrium" },
+])");
+  EXPECT_EQ(right.status, exit_status::done) << right.err << right.out;
+  const auto count = [&](const std::string& words) {
+    std::size_t found = 0;
+    for (std::size_t at = right.out.find(words); at != std::string::npos; at = right.out.find(words, at + 1))
+      ++found;
+    return found;
+  };
+  EXPECT_EQ(count("pass weight, density"), 5U);
+  EXPECT_EQ(count("pass light, density 1000"), 1U);
+  EXPECT_EQ(count("pass heavy, density 1500*2, friction_angle"), 2U);
+  EXPECT_EQ(count("pass summary.status, "), 5U);
+  const Answer kept = verify({.folder = folder.path(), .kept = folder / "kept"});
+  EXPECT_EQ(kept.status, exit_status::done);
+  EXPECT_EQ(read_text(folder / "kept/cube-weight/density_1500_2__friction_angle_10/command.txt"),
+            fmt::format("ashlar run '{}' --set 'parameters.density='\\''= 1500*2'\\''' --set "
+                        "'contact.friction_angle=10'\n",
+                        (folder / "cube.toml").string()));
+}
+
+/// Springs that make the numbers of the system overflow: in motion and, before the first row, at rest.
+TEST_F(OwnCases, ARunThatFailsFailsItsCase) {
+  const std::string motion =
+      R"("analysis.type" = "dynamic", "analysis.end_time" = 1, "analysis.time_step" = 0.1, "block.cube.order" = 1, )";
+  for (const auto& [keys, status] : {std::pair{motion, "failed"}, {std::string(), "not converged"}}) {
+    const Answer failed = verified_table("scene = \"cube.toml\"\nvary = [{ " + keys +
+                                         R"toml("contact.normal_stiffness" = 1e300 }]
+check = [
+  { value = "last(time)", at_least = 0 },
+  { value = "base.normal_force", at_least = "-1e99" },
+  { when = "0", value = "summary.status", is = "completed" },
+])toml");
+    EXPECT_EQ(failed.status, exit_status::failed) << failed.out << failed.err;
+    EXPECT_NE(failed.out.find(fmt::format("FAIL ended as {}: ", status)), std::string::npos)
+        << failed.out << failed.err;
+  }
+}
+
+/// The example of data/verification/README.md.
+TEST(Verification, TheExampleOfItsReadmePasses) {
+  const std::string readme = read_text(std::filesystem::path(ASHLAR_DATA_DIR) / "verification/README.md");
+  const std::string start = "```toml\n";
+  const std::size_t begin = readme.find(start) + start.size();
+  const TemporaryFolder folder;
+  write_text(folder / "cases.toml", readme.substr(begin, readme.find("```", begin) - begin));
+  write_text(folder / "block.toml", R"([parameters]
+density = 1
+[[material]]
+name = "rock"
+density = "= density"
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "ground"
+fixed = true
+box = { min = [-2, -2, -1], max = [3, 3, 0] }
+[[block]]
+name = "block"
+material = "rock"
+box = { min = [0, 0, 0], max = [2, 1, 0.5] }
+[[measure]]
+name = "base"
+pair = ["ground", "block"]
+)");
+  const Answer answer = verify({.folder = folder.path()});
+  EXPECT_EQ(answer.status, exit_status::done) << answer.err << answer.out;
 }
 
 TEST_F(OwnCases, FailByValue) {
@@ -187,6 +271,10 @@ TEST_F(OwnCases, FaultsHaveTheirPlace) {
         Fault{"{ value = \"time\", expect = \"0/0\", relative = 1 }",
               ":7:38: error: case cube-weight, density 2000: formula has no finite value"},
         Fault{"{ value = \"time\", expect = 1 }", ":7:10: error: check has no single tolerance"},
+        Fault{"{ value = \"summary.statsu\", is = \"moving\" }",
+              ":7:20: error: case cube-weight, density 2000: no text (summary.statsu)"},
+        Fault{"{ when = \"0\", value = \"time\", expect = 1, relative = 1 }",
+              ":1:2: error: case cube-weight, density 2000: no check holds for it, one is needed"},
         Fault{"{ value = \"time\", relative = 1 }", ":7:10: error: check has 0 references"},
         Fault{"{ value = \"time\", expect = 1, relativ = 1, absolute = 1 }",
               "error: unknown key in cube-weight.check (relativ)"}}) {
@@ -196,6 +284,24 @@ TEST_F(OwnCases, FaultsHaveTheirPlace) {
     EXPECT_NE(answer.err.find(here), std::string::npos);
   }
   EXPECT_EQ(verify({.folder = folder / "nothing"}).status, exit_status::bad_input);
+}
+
+TEST_F(OwnCases, FaultsOfVariantsHaveTheirPlace) {
+  const std::string check =
+      "\nscene = \"cube.toml\"\ncheck = [{ value = \"time\", expect = 1, relative = 1 }]";
+  for (const auto& [keys, message] :
+       {std::pair{"vary = []", ":5:8: error: vary has the wrong type, an array of tables is needed"},
+        {"vary = [{ density = [] }]", ":1:2: error: case cube-weight has no variant"},
+        {"vary = [{ weight = 1 }]", ":5:20: error: weight is no parameter of cube.toml"},
+        {"define = { density = 1 }",
+         ":5:22: error: density is a parameter of the scene, another name is needed"},
+        {"define = { a = \"= b\", b = \"= a\" }", ":5:1: error: case cube-weight: circular definition"},
+        {"define = { a = \"= densiti\" }",
+         ":5:1: error: case cube-weight: a (\"= densiti\"): unknown name in a formula (densiti)"}}) {
+    const Answer answer = verified_table(keys + check);
+    EXPECT_EQ(answer.status, exit_status::bad_input) << keys;
+    EXPECT_NE(answer.err.find(message), std::string::npos) << answer.err;
+  }
 }
 
 TEST(Verification, AnErrorThatIsNoNumberDoesNotPass) {

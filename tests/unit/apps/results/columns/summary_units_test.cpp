@@ -54,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EverySummary,
                          testing::Values("limits/plane.toml", "limits/flat_arch.toml", "slopes/incline.toml",
                                          "bolts/slope.toml", "bolts/struts.toml", "restitution/landing.toml",
                                          "ground/tension_crack.toml", "joints/dilation_load.toml",
-                                         "one_block/cantilever.toml", "bonds/tie.toml"));
+                                         "one_block/cantilever.toml", "bonds/tie.toml",
+                                         "accuracy/swelling.toml", "accuracy/tumbling.toml"));
 
 }  // namespace
 }  // namespace ashlar::summary_units_test

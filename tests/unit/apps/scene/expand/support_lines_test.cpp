@@ -87,6 +87,22 @@ TEST(SupportLines, APatternHasHeadsWhereBarsGoIntoABlock) {
   }
 }
 
+/// A pillar beside the face goes through its plane, and another lies lower: bars from there would go into rock at once too.
+TEST(SupportLines, HeadsOfAPatternAreOnFacesOnly) {
+  const Found found = loaded(
+      "[[block]]\nname = \"pillar\"\nmaterial = \"m\"\nbox = { min = [1, 0, 0], max = [3, 1, 4] }\n"
+      "[[bolt]]\nname = \"p\"\npattern = { plane = { point = [0.25, 0.25, 2], normal = [0, 0, 1] }, spacing "
+      "= [0.6, 0.6], length = 0.4 }\n" +
+      steel);
+  ASSERT_TRUE(found.scene) << found.first_fault;
+  std::vector<std::array<double, 2>> heads;
+  for (const SupportLine& line : lines_of(*found.scene)) heads.push_back({line.from.x(), line.from.y()});
+  // The face is the unit square; 1.45 is in the pillar.
+  EXPECT_THAT(heads,
+              testing::ElementsAre(testing::ElementsAre(0.25, 0.25), testing::ElementsAre(0.85, 0.25),
+                                   testing::ElementsAre(0.25, 0.85), testing::ElementsAre(0.85, 0.85)));
+}
+
 TEST(SupportLines, APropStandsBetweenTheBlocksBehindItsEnds) {
   const Found found =
       loaded("[[prop]]\nname = \"p\"\nstiffness = 1e7\nfrom = [0.5, 0.5, 1]\nto = [0.5, 0.5, 1.5]\n");

@@ -1,4 +1,4 @@
-#include "apps/scene/model/scene_placement.hpp"
+#include "apps/scene/build/scene_placement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,39 +11,17 @@
 #include "apps/scene/read/scene_json.hpp"
 #include "geometry/boxes/box.hpp"
 #include "support/temporary_folder.hpp"
+#include "unit/apps/scene/build/placed_scenes.hpp"
 
 namespace ashlar::scene_placement_test {
 namespace {
 
-/// A quarter turn about z and (1, 2, 3): (x, y, z) -> (1 - y, 2 + x, 3 + z).
-ScenePlacement about_z() {
-  ScenePlacement placement;
-  placement.turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  placement.shift = {1, 2, 3};
-  return placement;
-}
-
-/// A quarter turn about x and (1, 2, 3): (x, y, z) -> (1 + x, 2 - z, 3 + y).
-ScenePlacement about_x() {
-  ScenePlacement placement;
-  placement.turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  placement.shift = {1, 2, 3};
-  return placement;
-}
-
-const std::string start = R"(
-material = [{ name = "rock", density = 2000, young_modulus = 1e10, poisson_ratio = 0.2 }]
-)";
-const std::string statics = start + "analysis = { type = \"static\" }\n";
-const std::string cube =
-    "[[block]]\nname = \"A\"\nmaterial = \"rock\"\nbox = { min = [0, 0, 0], max = [2, 4, 6] }\n";
-
-Scene scene_of(const std::string& text, const std::string& file = "scene.toml") {
-  Diagnostics faults;
-  Scene scene = parse_scene(text, file, {}, faults);
-  for (const Diagnostic& fault : faults.sorted()) ADD_FAILURE() << fault.message;
-  return scene;
-}
+using test_support::about_x;
+using test_support::about_z;
+using test_support::cube;
+using test_support::scene_of;
+using test_support::start;
+using test_support::statics;
 
 void expect_near(const Vector3& found, const Vector3& expected) {
   EXPECT_NEAR((found - expected).norm(), 0.0, 1e-12) << found.transpose() << ", not " << expected.transpose();

@@ -1,4 +1,4 @@
-#include "apps/scene/model/scene_placement.hpp"
+#include "apps/scene/build/scene_placement.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 
 #include "apps/scene/build/quiet_boundaries.hpp"
 #include "apps/scene/check/water_checks.hpp"
+#include "apps/scene/expand/support_lines.hpp"
 #include "apps/scene/model/model_position.hpp"
 #include "apps/scene/read/exact_turn.hpp"
 #include "apps/scene/read/model_origin.hpp"
@@ -56,13 +57,6 @@ const char* fault_of_heights(const Scene& scene, const ScenePlacement& placement
       return "without constant gravity heights are along z";
   }
   return nullptr;
-}
-
-/// Direction of the rows of a pattern of bolts, horizontal (support_lines.cpp).
-Vector3 pattern_row(const Vector3& normal) {
-  const Vector3 level = Vector3::UnitZ().cross(normal.stableNormalized());
-  constexpr double horizontal = 1e-6;  // of the plane
-  return level.norm() > horizontal ? Vector3(level.normalized()) : Vector3(Vector3::UnitX());
 }
 
 /// Number of components that a boundary holds without motion.
