@@ -44,7 +44,7 @@ struct SearchSettings {
   static constexpr double smallest_cut = 0.01;
 };
 
-/// Limits on the state at the end of a step (step/end_state.hpp).
+/// Limits on the state at the end of a step (step/detect/end_state.hpp).
 struct DepthSettings {
   /// m, > 0: allowed depth of a corner or edge in another block beyond the depth of contacts, and in total for rigid
   /// contact. 0: the shares below of the smaller block's size
@@ -117,7 +117,7 @@ struct MultiplierSettings {
   int rounds = 40;  ///< balances of a step with other stiffness or multipliers; if more are needed it is cut
 };
 
-/// Conditions for putting islands of blocks to sleep (step/sleeping_islands.hpp).
+/// Conditions for putting islands of blocks to sleep (step/detect/sleeping_islands.hpp).
 struct RestSettings {
   bool sleeps = true;
   static constexpr int window = 30;  ///< steps, > 0: longer windows are safer and slower

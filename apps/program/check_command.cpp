@@ -12,7 +12,7 @@
 #include "apps/program/run/override_option.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/run_setup.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/check/base_motion.hpp"
 
 namespace ashlar {

@@ -9,7 +9,7 @@
 #include "apps/results/columns/frame_columns.hpp"
 #include "apps/results/columns/history_columns.hpp"
 #include "apps/results/text/json_text.hpp"
-#include "apps/scene/build/scene_schema.hpp"
+#include "apps/scene/assemble/scene_schema.hpp"
 
 namespace ashlar {
 

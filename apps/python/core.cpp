@@ -20,8 +20,8 @@
 #include "apps/python/core_simulation.hpp"
 #include "apps/results/folder/program_version.hpp"
 #include "apps/results/text/json_text.hpp"
-#include "apps/scene/build/scene_loading.hpp"
-#include "apps/scene/build/scene_schema.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
+#include "apps/scene/assemble/scene_schema.hpp"
 #include "apps/scene/read/scene_json.hpp"
 
 namespace py = pybind11;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 
 namespace ashlar {
 

@@ -16,7 +16,7 @@
 
 #include "apps/python/core_scene.hpp"
 #include "apps/results/tables/contact_state.hpp"
-#include "apps/run/answer_search.hpp"
+#include "apps/run/answers/answer_search.hpp"
 #include "apps/run/run.hpp"
 #include "geometry/index.hpp"
 

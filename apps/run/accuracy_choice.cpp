@@ -5,7 +5,7 @@
 
 #include "apps/results/tables/measure_goals.hpp"
 #include "apps/run/run_setup.hpp"
-#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/assemble/initial_state.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "apps/results/folder/accuracy_state.hpp"
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 
 namespace ashlar {
 

@@ -4,7 +4,7 @@
 
 #include "apps/results/folder/verdict_json.hpp"
 #include "apps/results/text/atomic_file.hpp"
-#include "apps/run/answer_summary.hpp"
+#include "apps/run/answers/answer_summary.hpp"
 #include "apps/run/run.hpp"
 
 namespace ashlar {

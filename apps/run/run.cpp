@@ -10,16 +10,16 @@
 #include "apps/results/system/this_process.hpp"
 #include "apps/results/tables/contact_state.hpp"
 #include "apps/run/accuracy_choice.hpp"
-#include "apps/run/answer_search.hpp"
-#include "apps/run/answer_summary.hpp"
+#include "apps/run/answers/answer_search.hpp"
+#include "apps/run/answers/answer_summary.hpp"
+#include "apps/run/answers/factor_analysis.hpp"
+#include "apps/run/answers/limit_run.hpp"
+#include "apps/run/answers/thrust_run.hpp"
+#include "apps/run/answers/trial_run.hpp"
 #include "apps/run/checkpoint_saver.hpp"
-#include "apps/run/factor_analysis.hpp"
 #include "apps/run/folder_recorder.hpp"
-#include "apps/run/limit_run.hpp"
 #include "apps/run/run_setup.hpp"
-#include "apps/run/thrust_run.hpp"
-#include "apps/run/trial_run.hpp"
-#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/assemble/initial_state.hpp"
 #include "apps/scene/check/added_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/toml/fault_text.hpp"
@@ -281,7 +281,7 @@ void Run::take_iteration() {
     case StaticStatus::moving:
       return end_stage(RunStatus::moving, describe_motion(simulation));
     case StaticStatus::not_converged:
-      return end_stage(RunStatus::not_converged, describe_unconverged(simulation, changes_));
+      return end_undecided();
   }
 }
 

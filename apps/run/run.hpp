@@ -28,10 +28,10 @@
 #include "apps/results/folder/scene_identity.hpp"
 #include "apps/results/tables/block_points.hpp"
 #include "apps/results/tables/measure.hpp"
-#include "apps/run/answer.hpp"
+#include "apps/run/answers/answer.hpp"
 #include "apps/run/run_observer.hpp"
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "solver/accuracy/goal_error.hpp"
 #include "solver/run/order_error.hpp"
 
@@ -198,6 +198,7 @@ class Run {
   [[nodiscard]] GoalValues goals_of_measures() const;
   void estimate_measures();
   void take_iteration();
+  void end_undecided();
   void show_state();
   bool accept_step();
   void gather_due();

@@ -4,7 +4,7 @@
 
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/results_library.hpp"
-#include "apps/run/answer.hpp"
+#include "apps/run/answers/answer.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_observer.hpp"

@@ -12,9 +12,9 @@
 
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_summary.hpp"
+#include "apps/run/answers/crushing_run.hpp"
 #include "apps/run/contact_resolution.hpp"
-#include "apps/run/crushing_run.hpp"
-#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/assemble/initial_state.hpp"
 #include "apps/scene/check/soft_blocks.hpp"
 #include "solver/state/automatic.hpp"
 

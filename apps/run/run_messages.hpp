@@ -5,7 +5,7 @@
 #include <iosfwd>
 
 #include "apps/run/run.hpp"
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 
 namespace ashlar {
 

@@ -16,8 +16,8 @@
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/accuracy_choice.hpp"
-#include "apps/run/answer_search.hpp"
-#include "apps/run/answer_summary.hpp"
+#include "apps/run/answers/answer_search.hpp"
+#include "apps/run/answers/answer_summary.hpp"
 #include "apps/run/checkpoint_saver.hpp"
 #include "apps/run/folder_recorder.hpp"
 #include "apps/run/run.hpp"
@@ -133,6 +133,16 @@ void Run::judge_motion() {
   verdict_ = verdict_of(simulation(), falls_);
   if (shared()) verdict_ = merged(values_of_ranks(manner_.ranks->ranks, *verdict_));
   if (message_.empty()) message_ = describe(*verdict_, simulation());
+}
+
+/// Ends a static analysis that has no result with the factors that bracket one.
+void Run::end_undecided() {
+  const std::string factors = answer_.bracket
+                                  ? ""
+                                  : undecided_factors(simulation(), scene().analysis.end_time,
+                                                      manner_.threads, [this] { return goes_on(); });
+  end_stage(RunStatus::not_converged, describe_unconverged(simulation(), changes_) +
+                                          (factors.empty() ? "" : "; by limit analysis, " + factors));
 }
 
 ResultFolder::Due Run::due() const {

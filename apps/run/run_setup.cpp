@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "apps/results/tables/group_measure.hpp"
-#include "apps/run/answer_search.hpp"
-#include "apps/run/limit_run.hpp"
-#include "apps/run/movement_run.hpp"
+#include "apps/run/answers/answer_search.hpp"
+#include "apps/run/answers/limit_run.hpp"
+#include "apps/run/answers/movement_run.hpp"
 #include "apps/scene/check/loose_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 
 namespace ashlar {
 

@@ -2,9 +2,9 @@
 // simulations built from them. Headers not included from here are internal and not installed.
 #pragma once
 
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/initial_state.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/initial_state.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/check/loose_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/model/diagnostics.hpp"

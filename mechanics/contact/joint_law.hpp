@@ -26,7 +26,7 @@
 //
 // Cohesion ends at once when a joint opens. There may be no balance between the two forces, and rounding errors would
 // decide the state. A bridged point keeps its cohesion across the gap until a balance shows that it has opened
-// (solver/step/open_close.hpp).
+// (solver/step/solve/open_close.hpp).
 //
 // Dilation (notes/dilation.md): slip p raises the rest gap of the normal spring by p tan(psi) at once:
 //     N = -kn (g - p tan(psi)),    ks (|s| - p) = max(N, 0) tan(phi) + c A,    p >= 0
@@ -83,10 +83,10 @@ struct JointLaw {
   /// Of each strength that is not zero, or of none. With it: area springs, without dilation, damping and multipliers,
   /// residual strength by friction only, and springs of more than least_bond_stiffness()
   FractureEnergy fracture = {};
-  /// Normal velocity after an impact over that before, 0 to 1 (solver/step/restitution.hpp). Empty: as springs,
+  /// Normal velocity after an impact over that before, 0 to 1 (solver/step/impact/restitution.hpp). Empty: as springs,
   /// dashpots or multipliers have it
   std::optional<double> restitution = std::nullopt;
-  /// Pa, > 0: plastic cap of normal pressure, of limit analysis only (solver/statics/crushing_joints.hpp)
+  /// Pa, > 0: plastic cap of normal pressure, of limit analysis only (solver/limit/crushing_joints.hpp)
   double compressive_strength = std::numeric_limits<double>::infinity();
 
   friend bool operator==(const JointLaw&, const JointLaw&) = default;

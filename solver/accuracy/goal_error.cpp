@@ -10,8 +10,8 @@
 #include "solver/accuracy/goal_distance.hpp"
 #include "solver/parallel_for.hpp"
 #include "solver/run/order_error.hpp"
-#include "solver/step/island_tangent.hpp"
-#include "solver/step/snapshot.hpp"
+#include "solver/step/accept/snapshot.hpp"
+#include "solver/step/island/island_tangent.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

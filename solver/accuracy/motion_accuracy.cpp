@@ -10,7 +10,7 @@
 #include "solver/accuracy/goal_distance.hpp"
 #include "solver/accuracy/island_errors.hpp"
 #include "solver/run/order_error.hpp"
-#include "solver/step/snapshot.hpp"
+#include "solver/step/accept/snapshot.hpp"
 
 namespace ashlar {
 namespace {

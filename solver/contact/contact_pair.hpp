@@ -15,7 +15,7 @@
 
 namespace ashlar {
 
-/// Rule that stops approaching points (step/velocity_contact.hpp).
+/// Rule that stops approaching points (step/accept/velocity_contact.hpp).
 struct Stop {
   double stiffness = 0.0;  ///< of a point relative to its effective inertia, dimensionless
   double inertia_a = 0.0;  ///< density over the step squared, kg/(m^3 s^2); unused if fixed
@@ -55,7 +55,7 @@ class ContactPair {
   [[nodiscard]] bool tied() const { return kind_.tied; }
   /// True if its springs represent rigid contact.
   [[nodiscard]] bool rigid() const { return kind_.rigid; }
-  /// Of joints with a coefficient of restitution (step/restitution.hpp).
+  /// Of joints with a coefficient of restitution (step/impact/restitution.hpp).
   [[nodiscard]] const std::optional<double>& restitution() const { return kind_.restitution; }
   /// Gap of a point relative to its rest gap at the start of the step, m.
   [[nodiscard]] double start_gap(std::size_t point) const {

@@ -1,4 +1,4 @@
-// The part of ContactPair that stops approaching points at the end of a step (step/velocity_contact.hpp).
+// The part of ContactPair that stops approaching points at the end of a step (step/accept/velocity_contact.hpp).
 #include <algorithm>
 #include <limits>
 

@@ -59,7 +59,7 @@ class BlockShare {
   void exchange(const std::function<void(ByteWriter& writer, int rank)>& write,
                 const std::function<void(ByteReader& reader, int rank)>& read) const;
 
-  /// @name Places of all undeformed blocks, which all ranks know (share_blocks in step/ghosts.hpp)
+  /// @name Places of all undeformed blocks, which all ranks know (share_blocks in shared/ghosts.hpp)
   /// @{
   void set_places(std::vector<PlacedVolume> places, const Eigen::Matrix3d& axes) {
     places_ = std::move(places);

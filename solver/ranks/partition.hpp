@@ -29,7 +29,7 @@ struct PartitionBlock {
 using Partition =
     std::function<std::vector<int>(Ranks& ranks, const std::vector<PartitionBlock>& own, int blocks)>;
 
-/// When blocks are shared out again in a run (step/rank_balance.hpp).
+/// When blocks are shared out again in a run (shared/rank_balance.hpp).
 struct Rebalancing {
   Partition partition;   ///< empty: never
   double beyond = 0.2;   ///< imbalance of the weights of ranks

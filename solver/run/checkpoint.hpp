@@ -1,11 +1,11 @@
-// Snapshots of a simulation (step/snapshot.hpp) as bytes.
+// Snapshots of a simulation (step/accept/snapshot.hpp) as bytes.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "solver/archived_geometry.hpp"
-#include "solver/step/snapshot.hpp"
+#include "solver/step/accept/snapshot.hpp"
 
 namespace ashlar {
 

@@ -7,7 +7,7 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
-#include "solver/step/step_contacts.hpp"
+#include "solver/step/detect/step_contacts.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

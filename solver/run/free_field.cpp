@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mechanics/basis/quadrature.hpp"
-#include "solver/step/time_scheme.hpp"
+#include "solver/step/island/time_scheme.hpp"
 
 namespace ashlar {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/ranks/block_share.hpp"
-#include "solver/step/step_contacts.hpp"
+#include "solver/step/detect/step_contacts.hpp"
 
 namespace ashlar {
 namespace {

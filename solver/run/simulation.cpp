@@ -9,25 +9,25 @@
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/contact/lost_strength.hpp"
+#include "solver/limit/rigid_model.hpp"
 #include "solver/ranks/counted_traffic.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/contact_explanation.hpp"
-#include "solver/run/gathered_run.hpp"
 #include "solver/run/stage_start.hpp"
+#include "solver/shared/agreement.hpp"
+#include "solver/shared/gathered_run.hpp"
+#include "solver/shared/ghost_models.hpp"
+#include "solver/shared/rank_balance.hpp"
+#include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_snapshot.hpp"
+#include "solver/shared/shared_verdict.hpp"
 #include "solver/statics/loose_blocks.hpp"
-#include "solver/statics/rigid_model.hpp"
-#include "solver/statics/shared_verdict.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
-#include "solver/step/accepted_bolts.hpp"
-#include "solver/step/agreement.hpp"
-#include "solver/step/end_state.hpp"
-#include "solver/step/ghost_models.hpp"
-#include "solver/step/rank_balance.hpp"
-#include "solver/step/shared_bolts.hpp"
-#include "solver/step/shared_snapshot.hpp"
-#include "solver/step/sleeping_islands.hpp"
+#include "solver/step/accept/accepted_bolts.hpp"
+#include "solver/step/detect/end_state.hpp"
+#include "solver/step/detect/sleeping_islands.hpp"
 
 namespace ashlar {
 Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions,
@@ -115,6 +115,13 @@ void Simulation::refuse_ranks(const char* what) const {
 
 RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& multiplied) const {
   return ashlar::rigid_model(system_, state_, end_time, multiplied);
+}
+
+RigidModel Simulation::level_model(double end_time) const {
+  RunState start = state_;
+  const std::vector<Eigen::MatrixX3d>& positions = state_.statics.level_start;
+  for (std::size_t k = 0; k < positions.size(); ++k) start.states[k].position = positions[k];
+  return ashlar::rigid_model(system_, start, end_time, {});
 }
 
 RigidModel Simulation::spring_model(double end_time, const std::vector<bool>& multiplied) const {

@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "solver/run/initial_stress.hpp"
-#include "solver/run/run_totals.hpp"
+#include "solver/shared/ghosts.hpp"
+#include "solver/shared/pairs_of_run.hpp"
+#include "solver/shared/run_totals.hpp"
 #include "solver/statics/static_analysis.hpp"
-#include "solver/step/block_changes.hpp"
+#include "solver/step/accept/block_changes.hpp"
 #include "solver/step/dynamic_step.hpp"
-#include "solver/step/ghosts.hpp"
-#include "solver/step/pairs_of_run.hpp"
 #include "solver/step/run_context.hpp"
 
 namespace ashlar {
@@ -46,7 +46,7 @@ class Simulation {
   Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
              std::vector<bool> absent = {});
-  /// The part of one rank in a simulation that several ranks share (step/ghosts.hpp, notes/ranks.md): dynamics and
+  /// The part of one rank in a simulation that several ranks share (shared/ghosts.hpp, notes/ranks.md): dynamics and
   /// statics of contacts with springs or multipliers. Steps, iterations and starts from statics are then collective,
   /// and have the same status on all ranks. Sums over blocks, pairs and points are those of this rank;
   /// gathered_run.hpp has those of the run.
@@ -128,6 +128,8 @@ class Simulation {
   /// @param multiplied by block: true if its loads are multiplied by a factor; empty: none
   /// @throws std::invalid_argument if a block is incremental
   [[nodiscard]] RigidModel rigid_model(double end_time, const std::vector<bool>& multiplied = {}) const;
+  /// The same where the present load level of a static analysis began.
+  [[nodiscard]] RigidModel level_model(double end_time) const;
   /// The same with springs in its joints, for a load path (load_path.hpp).
   [[nodiscard]] RigidModel spring_model(double end_time, const std::vector<bool>& multiplied = {}) const;
   /// Places blocks elsewhere, at rest and with forces found otherwise in their contacts, as a step of its own: to show the
@@ -139,7 +141,7 @@ class Simulation {
   /// Blocks that a static analysis found to be moving, including blocks carried along. On several ranks those of this
   /// one, on the first one after gather_results() those of all.
   [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
-  /// Wakes sleeping blocks (step/sleeping_islands.hpp). To be called when joint laws have changed.
+  /// Wakes sleeping blocks (step/detect/sleeping_islands.hpp). To be called when joint laws have changed.
   void wake();
   /// Sets of blocks in contact with each other that no fixed block, contact or support restrains: no static analysis
   /// can hold them. Includes single blocks whose supports allow any rigid motion. On several ranks collective, and the
@@ -167,7 +169,7 @@ class Simulation {
   void set_chord_tolerance(double tolerance);
 
   /// All data changed since construction (checkpoint.hpp); restore() sets them. On several ranks both are collective
-  /// (step/shared_snapshot.hpp): the first rank has the snapshot of the run after gather_results(), however little it asked
+  /// (shared/shared_snapshot.hpp): the first rank has the snapshot of the run after gather_results(), however little it asked
   /// for, and all restore it.
   [[nodiscard]] SimulationSnapshot snapshot() const;
   /// The same without pairs and records. Collective
@@ -223,7 +225,7 @@ class Simulation {
   [[nodiscard]] SimulationCounts counts() const;
   /// Of this rank alone; the first one of a resumed run has those of the earlier run, too.
   [[nodiscard]] SimulationCounts own_counts() const;
-  /// Weight of the blocks of this rank after the last step (step/rank_balance.hpp); 0 without ranks.
+  /// Weight of the blocks of this rank after the last step (shared/rank_balance.hpp); 0 without ranks.
   [[nodiscard]] double own_weight() const;
   /// Null: one rank has all blocks.
   [[nodiscard]] const SharedBlocks* shared_blocks() const { return shared_.get(); }

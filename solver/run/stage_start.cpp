@@ -8,11 +8,11 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/shared/ghosts.hpp"
+#include "solver/shared/shared_snapshot.hpp"
 #include "solver/statics/static_start.hpp"
-#include "solver/step/accepted_bolts.hpp"
-#include "solver/step/ghosts.hpp"
-#include "solver/step/quiet_release.hpp"
-#include "solver/step/shared_snapshot.hpp"
+#include "solver/step/accept/accepted_bolts.hpp"
+#include "solver/step/accept/quiet_release.hpp"
 
 namespace ashlar {
 namespace {

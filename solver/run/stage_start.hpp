@@ -7,13 +7,13 @@
 // and the work of contacts are reset.
 //
 // On several ranks a stage has other owners than the last one: each rank takes what its blocks and ghosts need from the
-// snapshot of the whole run, as after a checkpoint, with the pairs of its own blocks alone (step/shared_snapshot.hpp).
+// snapshot of the whole run, as after a checkpoint, with the pairs of its own blocks alone (shared/shared_snapshot.hpp).
 #pragma once
 
 #include <vector>
 
+#include "solver/step/accept/snapshot.hpp"
 #include "solver/step/run_context.hpp"
-#include "solver/step/snapshot.hpp"
 
 namespace ashlar {
 

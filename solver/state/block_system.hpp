@@ -45,7 +45,7 @@ class BlockSystem {
   /// no motion, contact, weight or energy
   /// @param share of the blocks among ranks, must outlive this; null: one rank has all of them. Blocks that are neither
   /// own nor ghosts of this rank are elsewhere: like absent ones here
-  /// With several ranks collective; blocks tied to own ones are ghosts then (share_blocks in step/ghosts.hpp).
+  /// With several ranks collective; blocks tied to own ones are ghosts then (share_blocks in shared/ghosts.hpp).
   /// @throws std::invalid_argument if a tied block is incremental
   BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
               const std::vector<TieRequest>& ties, std::vector<bool> absent = {},

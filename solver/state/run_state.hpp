@@ -129,7 +129,7 @@ struct LargestTurn {
   int block = -1;             ///< -1: none so far
   double angle = 0.0;         ///< rad, to first order in the rotation
   double time = 0.0;          ///< s, at the end of the step
-  std::uint64_t limited = 0;  ///< steps that were shortened for a turn (step/turn_limit.hpp)
+  std::uint64_t limited = 0;  ///< steps that were shortened for a turn (step/accept/turn_limit.hpp)
 };
 
 /// Wall time of the parts of a step, s.

@@ -1,5 +1,5 @@
 // Sleeping blocks: islands that have come to rest are held, without cost, until they are woken
-// (step/sleeping_islands.hpp, notes/sleeping_islands.md).
+// (step/detect/sleeping_islands.hpp, notes/sleeping_islands.md).
 #pragma once
 
 #include <Eigen/Dense>

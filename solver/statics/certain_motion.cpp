@@ -6,11 +6,11 @@
 #include <map>
 
 #include "geometry/index.hpp"
+#include "solver/shared/agreement.hpp"
+#include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_island.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
-#include "solver/step/agreement.hpp"
-#include "solver/step/shared_bolts.hpp"
-#include "solver/step/shared_island.hpp"
 
 namespace ashlar {
 namespace {

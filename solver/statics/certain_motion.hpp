@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "solver/contact/contact_finder.hpp"
-#include "solver/step/ghosts.hpp"
-#include "solver/step/step_contacts.hpp"
+#include "solver/shared/ghosts.hpp"
+#include "solver/step/detect/step_contacts.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

@@ -6,9 +6,9 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
-#include "solver/step/agreement.hpp"
-#include "solver/step/shared_bolts.hpp"
-#include "solver/step/shared_island.hpp"
+#include "solver/shared/agreement.hpp"
+#include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_island.hpp"
 
 namespace ashlar {
 namespace {

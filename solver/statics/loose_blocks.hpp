@@ -5,7 +5,7 @@
 
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
-#include "solver/step/step_contacts.hpp"
+#include "solver/step/detect/step_contacts.hpp"
 
 namespace ashlar {
 

@@ -6,8 +6,8 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/basis/field_moments.hpp"
+#include "solver/shared/agreement.hpp"
 #include "solver/statics/static_verdict.hpp"
-#include "solver/step/agreement.hpp"
 
 namespace ashlar {
 namespace {

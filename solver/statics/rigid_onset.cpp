@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "geometry/index.hpp"
+#include "solver/shared/agreement.hpp"
+#include "solver/shared/shared_island.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/static_verdict.hpp"
-#include "solver/step/agreement.hpp"
-#include "solver/step/shared_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {

@@ -6,10 +6,10 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
+#include "solver/limit/limit_analysis.hpp"
+#include "solver/paths/followed_collapse.hpp"
+#include "solver/paths/load_path.hpp"
 #include "solver/state/automatic.hpp"
-#include "solver/statics/followed_collapse.hpp"
-#include "solver/statics/limit_analysis.hpp"
-#include "solver/statics/load_path.hpp"
 
 namespace ashlar {
 namespace {

@@ -1,14 +1,14 @@
 #include "solver/statics/static_start.hpp"
 
 #include "geometry/index.hpp"
+#include "solver/shared/agreement.hpp"
+#include "solver/shared/ghosts.hpp"
+#include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_snapshot.hpp"
 #include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/static_step.hpp"
-#include "solver/step/accepted_bolts.hpp"
-#include "solver/step/agreement.hpp"
-#include "solver/step/ghosts.hpp"
-#include "solver/step/shared_bolts.hpp"
-#include "solver/step/shared_snapshot.hpp"
-#include "solver/step/snapshot.hpp"
+#include "solver/step/accept/accepted_bolts.hpp"
+#include "solver/step/accept/snapshot.hpp"
 
 namespace ashlar {
 

@@ -10,14 +10,14 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/shared/agreement.hpp"
+#include "solver/shared/ghosts.hpp"
 #include "solver/statics/certain_motion.hpp"
 #include "solver/statics/static_verdict.hpp"
-#include "solver/step/accepted_bolts.hpp"
-#include "solver/step/accepted_step.hpp"
-#include "solver/step/agreement.hpp"
-#include "solver/step/end_state.hpp"
-#include "solver/step/ghosts.hpp"
-#include "solver/step/quiet_release.hpp"
+#include "solver/step/accept/accepted_bolts.hpp"
+#include "solver/step/accept/accepted_step.hpp"
+#include "solver/step/accept/quiet_release.hpp"
+#include "solver/step/detect/end_state.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

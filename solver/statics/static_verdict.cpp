@@ -8,9 +8,9 @@
 #include "geometry/index.hpp"
 #include "mechanics/basis/field_moments.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/shared/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/rigid_onset.hpp"
-#include "solver/step/agreement.hpp"
 
 namespace ashlar {
 namespace {

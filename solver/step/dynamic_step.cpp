@@ -6,20 +6,20 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/step/accepted_bolts.hpp"
-#include "solver/step/accepted_step.hpp"
-#include "solver/step/agreement.hpp"
-#include "solver/step/block_changes.hpp"
-#include "solver/step/end_state.hpp"
-#include "solver/step/ghosts.hpp"
-#include "solver/step/position_projection.hpp"
-#include "solver/step/quiet_release.hpp"
-#include "solver/step/rank_balance.hpp"
-#include "solver/step/restitution.hpp"
-#include "solver/step/sleeping_islands.hpp"
-#include "solver/step/snapshot.hpp"
+#include "solver/shared/agreement.hpp"
+#include "solver/shared/ghosts.hpp"
+#include "solver/shared/rank_balance.hpp"
+#include "solver/step/accept/accepted_bolts.hpp"
+#include "solver/step/accept/accepted_step.hpp"
+#include "solver/step/accept/block_changes.hpp"
+#include "solver/step/accept/position_projection.hpp"
+#include "solver/step/accept/quiet_release.hpp"
+#include "solver/step/accept/snapshot.hpp"
+#include "solver/step/accept/turn_limit.hpp"
+#include "solver/step/detect/end_state.hpp"
+#include "solver/step/detect/sleeping_islands.hpp"
+#include "solver/step/impact/restitution.hpp"
 #include "solver/step/step_problem.hpp"
-#include "solver/step/turn_limit.hpp"
 
 namespace ashlar {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "solver/contact/depth_audit.hpp"
-#include "solver/step/factor_cache.hpp"
-#include "solver/step/step_contacts.hpp"
+#include "solver/step/detect/step_contacts.hpp"
+#include "solver/step/island/factor_cache.hpp"
 
 namespace ashlar {
 

@@ -6,8 +6,8 @@
 #include "geometry/index.hpp"
 #include "solver/parallel_for.hpp"
 #include "solver/ranks/block_share.hpp"
-#include "solver/step/shared_bolts.hpp"
-#include "solver/step/shared_island.hpp"
+#include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {

@@ -10,9 +10,9 @@
 #include "solver/contact/depth_audit.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
-#include "solver/step/factor_cache.hpp"
-#include "solver/step/island.hpp"
-#include "solver/step/time_scheme.hpp"
+#include "solver/step/island/factor_cache.hpp"
+#include "solver/step/island/island.hpp"
+#include "solver/step/island/time_scheme.hpp"
 
 namespace ashlar {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/factor_analysis.hpp"
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/initial_state.hpp"
+#include "apps/run/answers/factor_analysis.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/initial_state.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "solver/run/checkpoint.hpp"
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "apps/program/view/curved_cells.hpp"
-#include "apps/results/frames/vtu_reader.hpp"
+#include "apps/results/frames/vtu/vtu_reader.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "fuzz/targets.hpp"
 

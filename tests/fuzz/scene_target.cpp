@@ -5,10 +5,10 @@
 
 #include "apps/results/folder/scratch_folder.hpp"
 #include "apps/results/text/json_text.hpp"
-#include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/read/disc_table.hpp"
-#include "apps/scene/read/record_file.hpp"
 #include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/records/record_file.hpp"
 #include "apps/scene/toml/formulas.hpp"
 #include "fuzz/targets.hpp"
 

@@ -14,7 +14,7 @@
 #include "geometry/index.hpp"
 #include "solver/ranks/thread_ranks.hpp"
 #include "solver/run/checkpoint.hpp"
-#include "solver/run/gathered_run.hpp"
+#include "solver/shared/gathered_run.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar::test_support {

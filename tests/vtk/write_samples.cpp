@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "apps/results/folder/result_folder.hpp"
-#include "apps/results/frames/pvd_writer.hpp"
-#include "apps/results/frames/vtkhdf_file.hpp"
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtkhdf/vtkhdf_file.hpp"
+#include "apps/results/frames/vtu/pvd_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "geometry/index.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"

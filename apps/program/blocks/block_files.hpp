@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/program/blocks/removable_blocks.hpp"
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 
 namespace ashlar {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 
 namespace ashlar {

@@ -20,7 +20,7 @@
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/model/nearest_name.hpp"
 
 namespace ashlar {

@@ -6,7 +6,7 @@
 
 #include "apps/results/text/csv_text.hpp"
 #include "apps/run/run_setup.hpp"
-#include "apps/scene/build/joint_selection.hpp"
+#include "apps/scene/assemble/joint_selection.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
 #include "apps/scene/model/preparation.hpp"
 #include "apps/scene/read/analysis_json.hpp"

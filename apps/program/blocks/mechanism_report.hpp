@@ -1,4 +1,4 @@
-// Mechanisms of a scene by limit analysis, each with its own factor (solver/statics/key_groups.hpp): key blocks and groups of
+// Mechanisms of a scene by limit analysis, each with its own factor (solver/limit/key_groups.hpp): key blocks and groups of
 // them, with all strengths of joints and with the bolts that are there.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/program/blocks/removable_blocks.hpp"
-#include "solver/statics/key_groups.hpp"
+#include "solver/limit/key_groups.hpp"
 
 namespace ashlar {
 

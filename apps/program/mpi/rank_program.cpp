@@ -11,7 +11,7 @@
 
 #include "apps/program/command_line.hpp"
 #include "apps/program/program_memory.hpp"
-#include "apps/scene/build/run_ranks.hpp"
+#include "apps/scene/assemble/run_ranks.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "solver/ranks/mpi/contact_partition.hpp"
 #include "solver/ranks/mpi/mpi_session.hpp"

@@ -13,7 +13,7 @@
 #include "apps/program/new/starting_scenes.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
-#include "apps/scene/build/scene_schema.hpp"
+#include "apps/scene/assemble/scene_schema.hpp"
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 

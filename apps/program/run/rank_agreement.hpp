@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "apps/scene/build/run_ranks.hpp"
+#include "apps/scene/assemble/run_ranks.hpp"
 
 namespace ashlar {
 

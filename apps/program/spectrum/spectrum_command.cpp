@@ -17,8 +17,8 @@
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/csv_text.hpp"
 #include "apps/scene/model/nearest_name.hpp"
-#include "apps/scene/read/record_file.hpp"
-#include "apps/scene/read/record_processing.hpp"
+#include "apps/scene/records/record_file.hpp"
+#include "apps/scene/records/record_processing.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {

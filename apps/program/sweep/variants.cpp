@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "apps/scene/read/file_hash.hpp"
+#include "apps/scene/records/file_hash.hpp"
 
 namespace ashlar {
 namespace {

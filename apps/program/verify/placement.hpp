@@ -1,7 +1,7 @@
 // Verification scenes rotated and translated as a whole: results must transform likewise.
 #pragma once
 
-#include "apps/scene/build/scene_placement.hpp"
+#include "apps/scene/assemble/scene_placement.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {

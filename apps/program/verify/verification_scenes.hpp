@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 
 namespace ashlar {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mechanics/material/material.hpp"
-#include "solver/statics/limit_trial.hpp"
+#include "solver/limit/limit_trial.hpp"
 
 namespace ashlar {
 

@@ -10,7 +10,7 @@
 
 #include "apps/program/verify/kirsch_tunnel.hpp"
 #include "apps/program/verify/verification_contacts.hpp"
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 
 namespace ashlar {
 namespace {

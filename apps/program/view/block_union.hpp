@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 
 namespace ashlar {
 

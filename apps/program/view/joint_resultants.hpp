@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 
 namespace ashlar {
 

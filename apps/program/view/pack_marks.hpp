@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/program/view/packed_numbers.hpp"
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 
 namespace ashlar {
 

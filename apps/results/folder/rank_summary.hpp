@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/results/folder/run_summary.hpp"
-#include "solver/run/gathered_run.hpp"
+#include "solver/shared/gathered_run.hpp"
 
 namespace ashlar {
 

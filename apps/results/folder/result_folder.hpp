@@ -16,7 +16,7 @@
 #include "apps/results/frames/joint_faces.hpp"
 #include "apps/results/frames/largest_values.hpp"
 #include "apps/results/frames/load_frames.hpp"
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "apps/results/tables/history_writer.hpp"
 #include "apps/results/tables/measure.hpp"
 #include "apps/scene/model/scene.hpp"

@@ -14,7 +14,7 @@
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_outcome.hpp"
 #include "solver/run/checkpoint.hpp"
-#include "solver/step/pairs_of_run.hpp"
+#include "solver/shared/pairs_of_run.hpp"
 
 namespace ashlar {
 

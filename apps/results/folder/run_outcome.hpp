@@ -6,7 +6,7 @@
 
 #include "apps/results/folder/run_status.hpp"
 #include "apps/results/frames/largest_values.hpp"
-#include "solver/run/gathered_run.hpp"
+#include "solver/shared/gathered_run.hpp"
 
 namespace ashlar {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/assemble/initial_state.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "apps/results/folder/run_outcome.hpp"
 #include "apps/results/folder/scene_identity.hpp"
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 
 namespace ashlar {
 

@@ -7,8 +7,8 @@
 
 #include "apps/results/folder/program_version.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
-#include "apps/scene/read/file_hash.hpp"
 #include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/records/file_hash.hpp"
 
 namespace ashlar {
 namespace {

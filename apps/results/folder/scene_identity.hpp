@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 
 namespace ashlar {
 

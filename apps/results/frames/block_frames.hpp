@@ -5,7 +5,7 @@
 
 #include "apps/results/frames/drawn_solid.hpp"
 #include "apps/results/frames/drawn_surface.hpp"
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "apps/scene/model/scene.hpp"
 
 namespace ashlar {

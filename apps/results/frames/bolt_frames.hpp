@@ -1,7 +1,7 @@
 // The bolts and props of a state as lines with their forces: bolts.pvd.
 #pragma once
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {

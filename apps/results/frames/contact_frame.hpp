@@ -1,7 +1,7 @@
 // The contact points of a state: contacts.pvd.
 #pragma once
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {

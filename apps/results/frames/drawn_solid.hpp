@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "mechanics/block/block_model.hpp"
 
 namespace ashlar {

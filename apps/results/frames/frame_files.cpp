@@ -4,8 +4,8 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/results/frames/vtkhdf_frames.hpp"
-#include "apps/results/frames/vtu_files.hpp"
+#include "apps/results/frames/vtkhdf/vtkhdf_frames.hpp"
+#include "apps/results/frames/vtu/vtu_files.hpp"
 
 namespace ashlar {
 

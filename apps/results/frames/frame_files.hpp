@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/results/frames/vtkhdf_file.hpp"
+#include "apps/results/frames/vtkhdf/vtkhdf_file.hpp"
 #include "apps/scene/model/scene.hpp"
 
 namespace ashlar {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "apps/scene/model/scene.hpp"
 #include "mechanics/block/block_model.hpp"
 

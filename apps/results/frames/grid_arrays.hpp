@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 
 namespace ashlar {
 

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/frames/vtu/vtu_writer.hpp"
 #include "apps/scene/model/scene.hpp"
 #include "solver/run/simulation.hpp"
 

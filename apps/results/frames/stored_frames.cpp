@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/results/frames/frame_files.hpp"
-#include "apps/results/frames/vtu_reader.hpp"
+#include "apps/results/frames/vtu/vtu_reader.hpp"
 
 namespace ashlar {
 namespace {

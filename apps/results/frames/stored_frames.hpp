@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "apps/results/frames/vtkhdf_file.hpp"
+#include "apps/results/frames/vtkhdf/vtkhdf_file.hpp"
 
 namespace ashlar {
 

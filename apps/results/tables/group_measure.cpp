@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/scene/build/joint_selection.hpp"
+#include "apps/scene/assemble/joint_selection.hpp"
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/model/level_blocks.hpp"

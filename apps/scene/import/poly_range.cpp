@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/scene/read/lower_case.hpp"
+#include "apps/scene/toml/lower_case.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 
 namespace ashlar {

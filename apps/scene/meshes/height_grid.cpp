@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/scene/read/text_fields.hpp"
+#include "apps/scene/records/text_fields.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
 #include "geometry/mesh/mesh_formats.hpp"
 #include "geometry/mesh/text_scanner.hpp"

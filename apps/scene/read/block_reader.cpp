@@ -12,7 +12,7 @@
 #include "apps/scene/read/block_arrays.hpp"
 #include "apps/scene/read/history_reader.hpp"
 #include "apps/scene/read/model_origin.hpp"
-#include "apps/scene/read/required_vectors.hpp"
+#include "apps/scene/toml/required_vectors.hpp"
 
 namespace ashlar {
 namespace {

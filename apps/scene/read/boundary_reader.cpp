@@ -7,7 +7,7 @@
 
 #include "apps/scene/model/scene_names.hpp"
 #include "apps/scene/read/history_reader.hpp"
-#include "apps/scene/read/required_vectors.hpp"
+#include "apps/scene/toml/required_vectors.hpp"
 
 namespace ashlar {
 namespace {

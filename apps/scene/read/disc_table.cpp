@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "apps/scene/read/text_fields.hpp"
+#include "apps/scene/records/text_fields.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/input_file.hpp"
 #include "geometry/exact/coordinate_limit.hpp"

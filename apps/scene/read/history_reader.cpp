@@ -6,9 +6,9 @@
 #include <array>
 #include <cctype>
 
-#include "apps/scene/read/file_hash.hpp"
-#include "apps/scene/read/record_file.hpp"
-#include "apps/scene/read/record_processing.hpp"
+#include "apps/scene/records/file_hash.hpp"
+#include "apps/scene/records/record_file.hpp"
+#include "apps/scene/records/record_processing.hpp"
 
 namespace ashlar {
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
+#include "apps/scene/masonry/masonry.hpp"
 #include "apps/scene/meshes/mesh_import.hpp"
 #include "apps/scene/model/model_position.hpp"
 #include "apps/scene/read/block_reader.hpp"
-#include "apps/scene/read/masonry.hpp"
 #include "apps/scene/toml/parameters.hpp"
 #include "apps/scene/toml/toml_table_reader.hpp"
 #include "geometry/mesh/volume_mesh.hpp"

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "apps/scene/read/file_hash.hpp"
-#include "apps/scene/read/record_file.hpp"
-#include "apps/scene/read/required_vectors.hpp"
+#include "apps/scene/records/file_hash.hpp"
+#include "apps/scene/records/record_file.hpp"
+#include "apps/scene/toml/required_vectors.hpp"
 
 namespace ashlar {
 namespace {

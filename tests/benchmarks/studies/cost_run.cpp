@@ -9,7 +9,7 @@
 
 #include "apps/results/system/process_copy.hpp"
 #include "apps/results/system/this_process.hpp"
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 
 namespace ashlar {
 namespace {

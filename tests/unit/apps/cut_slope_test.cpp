@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar::cut_slope_test {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar::demo_scenes_test {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "apps/results/folder/scene_identity.hpp"
-#include "apps/run/trial_folder.hpp"
-#include "apps/run/trial_run.hpp"
+#include "apps/run/answers/trial_folder.hpp"
+#include "apps/run/answers/trial_run.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar::factor_run_test {

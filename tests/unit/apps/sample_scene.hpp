@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/model/diagnostics.hpp"
 
 namespace ashlar::test {

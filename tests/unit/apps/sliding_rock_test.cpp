@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "support/simulations.hpp"
 #include "unit/apps/run_fixture.hpp"
 

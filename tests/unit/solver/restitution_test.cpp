@@ -1,5 +1,5 @@
-// Joints with a coefficient of restitution (solver/step/restitution.hpp). Heights of rebounds: `ashlar verify`.
-#include "solver/step/restitution.hpp"
+// Joints with a coefficient of restitution (solver/step/impact/restitution.hpp). Heights of rebounds: `ashlar verify`.
+#include "solver/step/impact/restitution.hpp"
 
 #include <gtest/gtest.h>
 

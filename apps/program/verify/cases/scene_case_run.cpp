@@ -16,8 +16,8 @@
 #include "apps/results/text/json_path.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/run.hpp"
-#include "apps/scene/build/scene_loading.hpp"
-#include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
+#include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {

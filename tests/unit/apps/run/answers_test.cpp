@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/results/frames/grid_arrays.hpp"
-#include "apps/results/frames/vtu_reader.hpp"
+#include "apps/results/frames/vtu/vtu_reader.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar::answers_test {

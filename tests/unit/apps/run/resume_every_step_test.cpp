@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar::resume_every_step_test {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "apps/results/columns/summary_units.hpp"
+#include "apps/run/answers/trial_folder.hpp"
 #include "apps/run/run.hpp"
 #include "apps/run/run_setup.hpp"
-#include "apps/run/trial_folder.hpp"
 #include "solver/ranks/thread_ranks.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/run_fixture.hpp"

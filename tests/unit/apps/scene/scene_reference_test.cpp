@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "apps/scene/build/scene_schema.hpp"
+#include "apps/scene/assemble/scene_schema.hpp"
 #include "apps/scene/read/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"

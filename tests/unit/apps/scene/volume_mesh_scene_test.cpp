@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/run/run.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar::volume_mesh_scene_test {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sample_statics.hpp"
-#include "solver/statics/limit_analysis.hpp"
+#include "solver/limit/limit_analysis.hpp"
 
 namespace ashlar::test_support {
 

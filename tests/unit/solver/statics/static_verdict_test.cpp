@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/step/snapshot.hpp"
+#include "solver/step/accept/snapshot.hpp"
 #include "support/simulations.hpp"
 #include "unit/solver/statics/sample_statics.hpp"
 

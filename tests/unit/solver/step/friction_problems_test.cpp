@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/step/impact.hpp"
+#include "solver/step/impact/impact.hpp"
 
 namespace ashlar::friction_problems_test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/step/island_equations.hpp"
+#include "solver/step/island/island_equations.hpp"
 #include "support/simulations.hpp"
 #include "unit/solver/contact/sample_pair.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/program/command_line.hpp"
-#include "apps/results/frames/vtu_reader.hpp"
+#include "apps/results/frames/vtu/vtu_reader.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar::mixed_blocks_test {

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "apps/program/view/view_file.hpp"
-#include "apps/results/frames/vtu_reader.hpp"
+#include "apps/results/frames/vtu/vtu_reader.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/program/view/packed_reader.hpp"
 

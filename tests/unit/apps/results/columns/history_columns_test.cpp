@@ -8,8 +8,8 @@
 
 #include "apps/results/columns/contact_columns.hpp"
 #include "apps/results/columns/frame_columns.hpp"
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 
 namespace ashlar::history_columns_test {
 namespace {

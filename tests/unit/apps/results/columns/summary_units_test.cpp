@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "apps/run/run.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 
 namespace ashlar::summary_units_test {
 namespace {

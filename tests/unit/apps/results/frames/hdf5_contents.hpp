@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/results/frames/hdf5_file.hpp"
+#include "apps/results/frames/vtkhdf/hdf5_file.hpp"
 
 namespace ashlar {
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/check/scene_checks.hpp"
 #include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"

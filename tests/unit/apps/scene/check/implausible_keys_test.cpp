@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 

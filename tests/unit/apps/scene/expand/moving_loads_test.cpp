@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "apps/scene/read/scene_json.hpp"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "apps/scene/read/scene_json.hpp"

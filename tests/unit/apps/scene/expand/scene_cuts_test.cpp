@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "apps/scene/build/build_simulation.hpp"
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/build_simulation.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "apps/scene/read/scene_json.hpp"

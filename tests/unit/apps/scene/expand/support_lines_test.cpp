@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "support/temporary_folder.hpp"
 

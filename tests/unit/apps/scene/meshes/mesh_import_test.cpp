@@ -5,8 +5,8 @@
 
 #include <cstring>
 
-#include "apps/scene/build/scene_loading.hpp"
-#include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/assemble/scene_loading.hpp"
+#include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/meshes/base64.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"

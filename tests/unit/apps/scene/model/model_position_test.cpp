@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/build/scene_reader.hpp"
-#include "apps/scene/build/scene_schema.hpp"
+#include "apps/scene/assemble/scene_reader.hpp"
+#include "apps/scene/assemble/scene_schema.hpp"
 #include "apps/scene/read/scene_json.hpp"
 #include "apps/scene/toml/key_recorder.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "apps/scene/read/record_file.hpp"
+#include "apps/scene/records/record_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/limit/released_motion.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr int most_slip_programmes = 60;
+/// Differences of successive directions of slip: converged, and nearly converged.
+constexpr double same = 1e-3, alike = 0.1;
+/// Relative to the growth: remaining change that leaves its sign certain.
+constexpr double clearly = 0.2;
+/// Repeated decay at this rate ends at rest.
+constexpr double fast_decay = -0.5;
+constexpr int fast_decays = 3;
+/// Relative to the initial slip: slip has vanished.
+constexpr double no_slip = 1e-4;
+
+/// Shifts that limit the opening of joints to their dilation. @return by point
+Eigen::VectorXd shifts_of(const ConeProgram& program, const std::vector<double>& dilation,
+                          const std::vector<BodyVelocity>& velocity) {
+  Eigen::VectorXd shift(static_cast<Eigen::Index>(dilation.size()));
+  for (std::size_t pair = 0; pair < program.pairs().size(); ++pair) {
+    for (std::size_t k = program.pairs()[pair].begin; k < program.pairs()[pair].end; ++k) {
+      const double kept = program.points()[k].strength.friction - dilation[k];
+      shift[static_cast<Eigen::Index>(k)] = kept * program.relative(pair, k, velocity).tail<2>().norm();
+    }
+  }
+  return shift;
+}
+
+/// Growth of slip from programme to programme, and its limit.
+class Growth {
+ public:
+  void add(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+    const double last = growth_, last_change = change_;
+    growth_ = std::log(after.norm() / before.norm());
+    turned_ = (after / after.norm() - before / before.norm()).norm();
+    change_ = growth_ - last;
+    // Geometrically decreasing changes have a finite sum.
+    const double ratio = count_ > 1 ? change_ / last_change : 0.0;
+    limit_ = ratio > 0.0 && ratio < 0.95 ? growth_ + change_ * ratio / (1.0 - ratio) : growth_;
+    decays_ = growth_ < fast_decay ? decays_ + 1 : 0;
+    total_ += growth_;
+    ++count_;
+  }
+
+  /// True if slip comes to rest, whatever its direction.
+  [[nodiscard]] bool ends() const { return decays_ >= fast_decays || total_ < std::log(no_slip); }
+  [[nodiscard]] double limit() const { return limit_; }
+  [[nodiscard]] bool settled(double margin) const {
+    if (count_ < 3) return false;
+    const double allowed = std::max(margin, clearly * std::abs(growth_));
+    return turned_ < same || (turned_ < alike && std::abs(limit_ - growth_) < allowed);
+  }
+
+ private:
+  double growth_ = 0.0, change_ = 0.0, limit_ = 0.0, turned_ = 0.0, total_ = 0.0;
+  int count_ = 0, decays_ = 0;
+};
+
+ConeAnswer asked(ConeProgram& program, const ConeQuestion& question, ReleasedMotion& found) {
+  ConeAnswer answer = program.solve(question);
+  ++found.programmes;
+  found.iterations += answer.iterations;
+  return answer;
+}
+
+}  // namespace
+
+ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilation,
+                         const std::vector<BodyVelocity>& load, const std::vector<BodyVelocity>& start,
+                         double margin) {
+  ReleasedMotion found;
+  ConeQuestion question;
+  question.load = load;
+  question.balanced = true;
+  Eigen::VectorXd shift = shifts_of(program, dilation, start);
+  Growth growth;
+  if (shift.size() == 0 || !(shift.maxCoeff() > 0.0)) {
+    found.outcome = LimitOutcome::stands;
+    return found;
+  }
+  for (int n = 0; n < most_slip_programmes; ++n) {
+    shift /= shift.maxCoeff();
+    question.shift.assign(shift.begin(), shift.end());
+    ConeAnswer answer = asked(program, question, found);
+    found.velocity = std::move(answer.velocity);
+    found.force = std::move(answer.force);
+    Eigen::VectorXd next = shifts_of(program, dilation, found.velocity);
+    growth.add(shift, next);
+    if (growth.ends() || growth.settled(margin)) {
+      const bool grows = !growth.ends() && growth.limit() > -margin;
+      found.outcome = grows ? LimitOutcome::moves : LimitOutcome::stands;
+      return found;
+    }
+    shift = std::move(next);
+  }
+  return found;
+}
+
+ReleasedMotion motion_of_slip(ConeProgram& program, const std::vector<double>& dilation,
+                              const std::vector<BodyVelocity>& load, const std::vector<BodyVelocity>& slip) {
+  // Initial and final size of the motion relative to that by the loads, in which inertia becomes relevant.
+  constexpr double first_motion = 0.1, followed_to = 0.05, programme_gap = 1e-8;
+  constexpr int most_followed = 12;
+  ReleasedMotion found;
+  ConeQuestion question;
+  question.load = load;
+  question.gap = programme_gap;
+  const double motion = largest_motion(slip, load, program.loaded_bodies());
+  if (!(motion > 0.0)) return found;
+  Eigen::VectorXd shift = first_motion / motion * shifts_of(program, dilation, slip);
+  std::vector<Eigen::Vector3d> force;
+  for (int n = 0; n < most_followed; ++n) {
+    question.shift.assign(shift.begin(), shift.end());
+    ConeAnswer answer = asked(program, question, found);
+    force = std::move(answer.force);
+    Eigen::VectorXd next = shifts_of(program, dilation, answer.velocity);
+    const bool followed = (next - shift).norm() <= followed_to * next.norm();
+    shift = std::move(next);
+    if (followed) break;
+  }
+  ReleasedMotion polished = motion_from_rest(program, dilation, load, std::move(force));
+  polished.programmes += found.programmes;
+  polished.iterations += found.iterations;
+  return polished;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,151 @@
+#include "solver/paths/followed_blocks.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "solver/state/automatic.hpp"
+
+namespace ashlar {
+namespace {
+
+Eigen::Matrix3d turn_of(const Vector3& rotation) {
+  const double angle = rotation.norm();
+  if (!(angle > 0.0)) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, Vector3(rotation / angle)).toRotationMatrix();
+}
+
+/// Joints with friction only and face-face contact up to the largest angle of the search.
+BlockSystem dry_system(const BlockSystem& system, double reach) {
+  SimulationSettings settings = system.settings();
+  settings.contact_distance = reach;
+  settings.search.contact_angle = 0.25 * std::numbers::pi;
+  std::vector<TieRequest> ties;
+  for (const auto& [a, b] : system.left_out()) ties.push_back({a, b, 1.0});
+  return BlockSystem(
+      system.blocks(),
+      [&system](int a, int b) {
+        JointLaw law = system.law(a, b);
+        law.cohesion = 0.0;
+        law.tensile_strength = 0.0;
+        if (law.residual) law.friction = law.residual->friction;
+        return law;
+      },
+      settings, ties, system.absent());
+}
+
+}  // namespace
+
+FollowedBlocks::FollowedBlocks(const PlacedScene& scene, double reach)
+    : scene_(scene), system_(dry_system(scene.system, reach)) {
+  for (const BlockModel& block : system_.blocks()) {
+    double radius = 0.0;
+    for (const Vector3& point : block.solid().mesh().points)
+      radius = std::max(radius, (point - block.basis().centroid()).norm());
+    radius_.push_back(radius);
+  }
+}
+
+FollowedPlace FollowedBlocks::as_placed() const {
+  return {0.0,
+          scene_.states,
+          std::vector<Eigen::Matrix3d>(scene_.states.size(), Eigen::Matrix3d::Identity()),
+          {}};
+}
+
+RigidModel FollowedBlocks::model_of(const FollowedPlace& placement) const {
+  RunState state;
+  state.states = placement.states;
+  for (const auto& [blocks, history] : scene_.histories) state.pairs[blocks].overlap = history.overlap;
+  return rigid_model(system_, state, scene_.end_time, {});
+}
+
+double FollowedBlocks::radius_about(const RigidBody& body) const {
+  double radius = 0.0;
+  for (const int block : body.blocks) {
+    double own = radius_[at(block)];
+    // Tied blocks keep their distances.
+    if (body.blocks.size() > 1) {
+      Vector3 middle = Vector3::Zero();
+      double mass = 0.0;
+      for (const int k : body.blocks) {
+        const BlockModel& model = system_.blocks()[at(k)];
+        middle += model.mass() * model.basis().centroid();
+        mass += model.mass();
+      }
+      own += (system_.blocks()[at(block)].basis().centroid() - middle / mass).norm();
+    }
+    radius = std::max(radius, own);
+  }
+  return radius;
+}
+
+double FollowedBlocks::largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const {
+  double largest = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const RigidMotionOf motion = motion_of(model.bodies[b], way[b]);
+    largest =
+        std::max(largest, motion.translation.norm() + radius_about(model.bodies[b]) * motion.rotation.norm());
+  }
+  return largest;
+}
+
+void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocity>& way,
+                          FollowedPlace& placement) const {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const RigidBody& body = model.bodies[b];
+    const RigidMotionOf motion = motion_of(body, way[b]);
+    const Eigen::Matrix3d turn = turn_of(motion.rotation);
+    for (const int k : body.blocks) {
+      Eigen::MatrixX3d& position = placement.states[at(k)].position;
+      position = mapped(system_.blocks()[at(k)], position, turn,
+                        body.middle + motion.translation - turn * body.middle);
+      placement.turn[at(k)] = turn * placement.turn[at(k)];
+    }
+  }
+}
+
+void FollowedBlocks::place_support(int support, const SupportWay& way, double q,
+                                   FollowedPlace& placement) const {
+  placement.states[at(support)].position =
+      way.placed(system_.blocks()[at(support)], scene_.states[at(support)].position, q);
+  placement.moved = q;
+}
+
+RigidModel midway(const RigidModel& model, const ConeProgram& program, const std::vector<BodyVelocity>& way) {
+  RigidModel mid = model;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    mid.bodies[b].middle += 0.5 * motion_of(model.bodies[b], way[b]).translation;
+  for (const ConePair& pair : program.pairs()) {
+    const auto [a, b] = pair.bodies;
+    Vector3 rotation = Vector3::Zero();  // mean of both sides
+    for (const int body : pair.bodies)
+      if (body >= 0 && at(body) < model.bodies.size())
+        rotation += 0.5 * motion_of(model.bodies[at(body)], way[at(body)]).rotation;
+    const Eigen::Matrix3d turn = turn_of(0.5 * rotation);
+    for (std::size_t k = pair.begin; k < pair.end; ++k) {
+      const ConePoint& point = program.points()[k];
+      Eigen::Vector3d both = Eigen::Vector3d::Zero();
+      if (a >= 0) both += point.first * way[at(a)];
+      if (b >= 0) both += point.second * way[at(b)];
+      RigidPoint& moved = mid.points[k];
+      moved.friction_place = turn * (moved.friction_place - moved.place);
+      moved.place += 0.25 * model.points[k].frame.transpose() * both;
+      moved.friction_place += moved.place;
+      mid.points[k].frame = model.points[k].frame * turn.transpose();
+    }
+  }
+  return mid;
+}
+
+double smallest_size(const BlockSystem& system, const RigidModel& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const RigidBody& body : model.bodies)
+    for (const int block : body.blocks) smallest = std::min(smallest, block_size(system.blocks()[at(block)]));
+  return smallest;
+}
+
+}  // namespace ashlar

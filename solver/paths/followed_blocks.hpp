@@ -1,0 +1,57 @@
+// Rigid blocks that follow a moving support (support_movement.hpp): their placement, the slip of their joints, and
+// the rigid model of the placement.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "solver/block_pair.hpp"
+#include "solver/limit/rigid_model.hpp"
+#include "solver/paths/support_movement.hpp"
+#include "solver/paths/yielding_support.hpp"
+
+namespace ashlar {
+
+/// Placement of blocks, as a value.
+struct FollowedPlace {
+  double moved = 0.0;                 ///< q of the support, m
+  std::vector<BlockState> states;     ///< by block
+  std::vector<Eigen::Matrix3d> turn;  ///< of each block relative to its initial placement
+  std::map<PairKey, double> slip;     ///< m, accumulated slip of joints under pressure
+};
+
+class FollowedBlocks {
+ public:
+  /// @param reach m, largest gap of detected points
+  /// @throws std::invalid_argument as support_movement
+  FollowedBlocks(const PlacedScene& scene, double reach);
+
+  [[nodiscard]] FollowedPlace as_placed() const;
+  /// Bodies and all points in reach, gaps in RigidPoint::contact.
+  [[nodiscard]] RigidModel model_of(const FollowedPlace& placement) const;
+
+  /// Largest displacement of any place of a body, m. @param way by body, in coordinates of the model
+  [[nodiscard]] double largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const;
+  /// Moves bodies by exact rotations.
+  void move(const RigidModel& model, const std::vector<BodyVelocity>& way, FollowedPlace& placement) const;
+  void place_support(int support, const SupportWay& way, double q, FollowedPlace& placement) const;
+
+ private:
+  [[nodiscard]] double radius_about(const RigidBody& body) const;
+
+  const PlacedScene& scene_;
+  BlockSystem system_;          ///< with friction only, and points up to the reach
+  std::vector<double> radius_;  ///< m, of each block about its centroid
+};
+
+/// The model midway through a motion, with updated centroids, places and frames of its points and unchanged loads and
+/// gaps.
+/// @param program of the model, with or without the support. @param way m, by body of the programme
+[[nodiscard]] RigidModel midway(const RigidModel& model, const ConeProgram& program,
+                                const std::vector<BodyVelocity>& way);
+
+/// Size of the smallest block that may move, m: edge of the cube of the same volume.
+[[nodiscard]] double smallest_size(const BlockSystem& system, const RigidModel& model);
+
+}  // namespace ashlar

@@ -1,0 +1,332 @@
+#include "solver/paths/support_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "solver/paths/thrust.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr int most_closings = 30;
+constexpr int most_unknown_steps = 10;  ///< undetermined steps within the tolerance
+/// Programmes of a path: ends a path that halves its step indefinitely.
+constexpr int most_programmes = 50000;
+
+enum class StepEnd { equilibrium, jammed, unbalanced, far, undetermined };
+
+/// Gaps relative to a length, by point of a model, limited to a thousand: programmes lose digits by shifts of very
+/// different sizes. Forces across larger gaps are detected when gaps are closed.
+std::vector<double> gaps_over(const RigidModel& model, double length) {
+  constexpr double farthest = 1e3;
+  std::vector<double> gaps;
+  gaps.reserve(model.points.size());
+  for (const RigidPoint& point : model.points) gaps.push_back(std::min(point.contact.gap / length, farthest));
+  return gaps;
+}
+
+std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way) {
+  for (BodyVelocity& v : way) v *= factor;
+  return way;
+}
+
+/// True if forces of all points in reach cannot balance the loads: the squared motion by Gauss's principle exceeds
+/// the gap between its primal and dual values.
+bool moves(ConeProgram& program, const std::vector<BodyVelocity>& load) {
+  constexpr double certain = 10.0;
+  ConeQuestion question;
+  question.load = load;
+  const ConeAnswer answer = program.solve(question);
+  double square = 0.0;
+  for (const BodyVelocity& v : answer.velocity) square += v.squaredNorm();
+  return answer.status == ConeStatus::solved && square > certain * answer.gap;
+}
+
+/// Path of a support in one direction.
+class Path {
+ public:
+  explicit Path(const SupportStart& start)
+      : blocks_(start.blocks),
+        way_(start.way),
+        support_(start.support),
+        sign_(start.sign),
+        lengths_(start.lengths),
+        threads_(start.threads),
+        slides_first_(start.slides_first),
+        placement_(blocks_.as_placed()) {}
+
+  SupportPath follow(const MovementSearch& search) {
+    // Blocks may be apart by less than the contact distance: these gaps are closed first.
+    const StepEnd start = close(placement_, lengths_.reach);
+    if (start != StepEnd::equilibrium) {
+      path_.end = start == StepEnd::undetermined ? MovementEnd::not_determined : MovementEnd::not_balanced;
+      finish();
+      return std::move(path_);
+    }
+    settle_at(placement_);
+    const RigidModel first = *model_;
+    take_steps(search);
+    note_last_place(std::min(search.tolerance, lengths_.longest_step));
+    note_joints(first);
+    finish();
+    return std::move(path_);
+  }
+
+ private:
+  struct Prediction {
+    std::vector<BodyVelocity> velocity;  ///< of bodies, then of the support, per m of the step
+    double thrust;                       ///< N
+  };
+
+  [[nodiscard]] double moved() const { return std::abs(placement_.moved); }
+
+  /// Records the thrust and the forces of the last placement. Rounding may leave those of a short step undetermined: longer
+  /// ones are tried. @param step m
+  void note_last_place(double step) {
+    constexpr double longer = 4.0;
+    std::optional<Prediction> ahead = predict(step);
+    while (!ahead && failed_ == StepEnd::undetermined && step < lengths_.longest_step) {
+      step = std::min(longer * step, lengths_.longest_step);
+      ahead = predict(step);
+    }
+    if (ahead)
+      path_.places.push_back({moved(), ahead->thrust});
+    else
+      force_.clear();  // of an earlier placement
+  }
+
+  /// Moves from equilibrium to equilibrium until the search ends.
+  void take_steps(const MovementSearch& search) {
+    path_.end = MovementEnd::reaches_limit;
+    double step = lengths_.longest_step;
+    int unknown = 0;
+    while (search.limit > moved()) {
+      if (!search.goes_on()) {
+        path_.end = MovementEnd::interrupted;
+        return;
+      }
+      step = std::min(step, search.limit - moved());
+      const StepEnd end = path_.programmes < most_programmes ? advance(step) : StepEnd::undetermined;
+      if (end == StepEnd::equilibrium) {
+        path_.upper.reset();
+        path_.end = MovementEnd::reaches_limit;
+        step = std::min(lengths_.longest_step, next_step(step, 2.0));
+        continue;
+      }
+      note_end(end, step, search.tolerance);
+      const bool narrow = step <= search.tolerance;
+      const bool known = narrow && path_.upper && *path_.upper - moved() <= 2.0 * search.tolerance;
+      // Rounding differs beside an undetermined place.
+      if (known || (narrow && ++unknown > most_unknown_steps) || path_.programmes >= most_programmes) {
+        if (!path_.upper) path_.end = MovementEnd::not_determined;
+        return;
+      }
+      step = narrow ? 0.5 * step : std::max(next_step(step, 0.5), 0.5 * search.tolerance);
+    }
+  }
+
+  /// Records an end. Too large a motion is conclusive only if the step is within the tolerance, the other ends always
+  /// are.
+  void note_end(StepEnd end, double step, double tolerance) {
+    if (end == StepEnd::undetermined || (end == StepEnd::far && step > tolerance)) return;
+    path_.upper = moved() + step;
+    path_.end = end == StepEnd::jammed ? MovementEnd::jams : MovementEnd::collapses;
+  }
+
+  /// Length in proportion to the displacement of blocks in the last step. @param most factor
+  [[nodiscard]] double next_step(double step, double most) const {
+    constexpr double margin = 0.8, least = 0.1;
+    return step * std::clamp(margin * lengths_.farthest / std::max(last_way_, 1e-300), least, most);
+  }
+
+  /// The model whose motion is that of a step: of an equal one, the joint that slides first has less friction.
+  [[nodiscard]] RigidModel yielding(RigidModel model) const {
+    constexpr double remains = 0.5;
+    for (RigidPoint& point : model.points)
+      if (key_of(point.blocks) == slides_first_) point.law.friction *= remains;
+    return model;
+  }
+
+  /// Continues from an equilibrium.
+  void settle_at(FollowedPlace placement) {
+    placement_ = std::move(placement);
+    model_ = blocks_.model_of(placement_);
+    program_.emplace(program_at(*model_, placement_.moved));
+  }
+
+  /// @param q of the support, m
+  [[nodiscard]] ConeProgram program_at(const RigidModel& model, double q) const {
+    const SupportVelocity velocity = [this, q](const RigidPoint& point) { return way_.velocity(point, q); };
+    return program_with_support(model, support_, velocity, threads_);
+  }
+
+  /// Solves (step). @return empty: the support cannot move against the structure, or the reason is in `failed_`
+  std::optional<Prediction> predict(double step) {
+    ConeQuestion question = question_of_support(*model_, sign_);
+    question.shift = gaps_over(*model_, step);
+    const ConeAnswer answer = program_->solve(question);
+    ++path_.programmes;
+    failed_ = !is_balanced(answer)          ? StepEnd::undetermined
+              : boundless(question, answer) ? StepEnd::jammed
+                                            : StepEnd::equilibrium;
+    if (failed_ != StepEnd::equilibrium) return std::nullopt;
+    force_ = answer.force;
+    velocity_ =
+        slides_first_ ? velocity_of_step(*model_, 0.0, step).value_or(answer.velocity) : answer.velocity;
+    return Prediction{velocity_, -sign_ * answer.factor * model_->units.force()};
+  }
+
+  /// Motion per m of a step by a model that is `ahead` of the placement, m. Empty: it has none
+  std::optional<std::vector<BodyVelocity>> velocity_of_step(const RigidModel& model, double ahead,
+                                                            double step) {
+    ConeProgram program = program_at(yielding(model), placement_.moved + ahead);
+    ConeQuestion question = question_of_support(model, sign_);
+    question.shift = gaps_over(*model_, step);
+    ConeAnswer answer = program.solve(question);
+    ++path_.programmes;
+    if (!is_balanced(answer) || boundless(question, answer)) return std::nullopt;
+    return std::move(answer.velocity);
+  }
+
+  /// The motion of a step by the directions at its middle: hinges stay in place to third order of the rotation, while
+  /// they would drift along their joints otherwise. @param way m, by the directions at its start
+  std::vector<BodyVelocity> half_way(double step, const std::vector<BodyVelocity>& way) {
+    const RigidModel mid = midway(*model_, *program_, way);
+    // If there is none, the first directions are used, and remaining gaps are closed later.
+    const auto velocity = velocity_of_step(mid, 0.5 * sign_ * step, step);
+    return velocity ? times(step, *velocity) : way;
+  }
+
+  StepEnd advance(double step) {
+    const std::optional<Prediction> ahead = predict(step);
+    last_way_ = 0.0;
+    if (!ahead) return failed_;
+    const std::vector<BodyVelocity> way = half_way(step, times(step, ahead->velocity));
+    const double farthest = last_way_ = blocks_.largest_way(*model_, way);
+    if (!(farthest <= lengths_.farthest)) return StepEnd::far;
+    FollowedPlace next = placement_;
+    note_slip(*model_, *program_, way, force_, next);
+    blocks_.move(*model_, way, next);
+    blocks_.place_support(support_, way_, placement_.moved + sign_ * step, next);
+    const StepEnd end = close(next, lengths_.farthest - farthest);
+    if (end != StepEnd::equilibrium) return end;
+    path_.places.push_back({moved(), ahead->thrust});
+    settle_at(std::move(next));
+    return end;
+  }
+
+  /// Repeats (close) until nothing moves. @param way m, allowed displacement of blocks
+  StepEnd close(FollowedPlace& placement, double way) {
+    for (int n = 0; n < most_closings; ++n) {
+      const RigidModel model = blocks_.model_of(placement);
+      ConeProgram program = program_of(model, threads_);
+      double scale = lengths_.closed;
+      for (const RigidPoint& point : model.points) scale = std::max(scale, std::abs(point.contact.gap));
+      ConeQuestion question;
+      question.load = model.steady;
+      question.shift = gaps_over(model, scale);
+      question.balanced = true;
+      const ConeAnswer answer = program.solve(question);
+      ++path_.programmes;
+      if (!is_balanced(answer))
+        return moves(program, model.steady) ? StepEnd::unbalanced : StepEnd::undetermined;
+      const std::vector<BodyVelocity> motion = times(scale, answer.velocity);
+      const double farthest = blocks_.largest_way(model, motion);
+      way -= farthest;
+      if (!(way >= 0.0)) return StepEnd::far;
+      note_slip(model, program, motion, answer.force, placement);
+      blocks_.move(model, motion, placement);
+      if (farthest <= lengths_.closed) return StepEnd::equilibrium;
+    }
+    return StepEnd::undetermined;
+  }
+
+  /// Adds the slip in a motion of joints that transmit force. @param way m
+  static void note_slip(const RigidModel& model, const ConeProgram& program,
+                        const std::vector<BodyVelocity>& way, const std::vector<Eigen::Vector3d>& force,
+                        FollowedPlace& placement) {
+    constexpr double bears = 1e-3;  // of the largest force
+    double largest = 0.0;
+    for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
+    std::map<PairKey, double> slid;
+    for (std::size_t n = 0; n < program.pairs().size(); ++n) {
+      for (std::size_t k = program.pairs()[n].begin; k < program.pairs()[n].end; ++k) {
+        if (!(force[k][0] > bears * largest)) continue;
+        double& most = slid[key_of(model.points[k].blocks)];
+        most = std::max(most, program.relative(n, k, way).tail<2>().norm());
+      }
+    }
+    for (const auto& [blocks, slip] : slid) placement.slip[blocks] += slip;
+  }
+
+  void note_joints(const RigidModel& first) {
+    constexpr double turned = 1e-4;  // rad
+    std::map<PairKey, JointResultant> bearing;
+    if (force_.size() == model_->points.size()) {
+      path_.contacts = contact_records(*model_, in_newtons(*model_, force_));
+      for (const JointResultant& joint : joint_resultants(*model_, forces_of(*model_, force_)))
+        bearing.emplace(key_of(joint.blocks), joint);
+    }
+    std::map<PairKey, Vector3> places;
+    for (const RigidModel* model : {&first, static_cast<const RigidModel*>(&*model_)})
+      for (const RigidPoint& point : model->points) places[key_of(point.blocks)] = point.place;
+    for (const auto& [blocks, place] : places) {
+      const Eigen::Matrix3d relative =
+          placement_.turn[at(blocks[0])].transpose() * placement_.turn[at(blocks[1])];
+      const auto slip = placement_.slip.find(blocks);
+      const auto found = bearing.find(blocks);
+      MovedJoint joint{blocks, found != bearing.end() ? found->second.place : place,
+                       Eigen::AngleAxisd(relative).angle(),
+                       slip != placement_.slip.end() ? slip->second : 0.0, found != bearing.end()};
+      if (joint.rotation > turned || joint.slip > lengths_.closed) path_.joints.push_back(joint);
+    }
+  }
+
+  /// Records the placement of blocks, and the moving ones.
+  void finish() {
+    path_.lower = moved();
+    for (const BlockState& state : placement_.states) path_.positions.push_back(state.position);
+    if (!model_ || velocity_.size() < model_->bodies.size()) return;
+    constexpr double moves_along = 0.01;  // of the fastest
+    const double largest = blocks_.largest_way(*model_, velocity_);
+    std::set<int> moving;
+    for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+      std::vector<BodyVelocity> alone(model_->bodies.size(), BodyVelocity::Zero());
+      alone[b] = velocity_[b];
+      if (blocks_.largest_way(*model_, alone) > moves_along * largest)
+        moving.insert(model_->bodies[b].blocks.begin(), model_->bodies[b].blocks.end());
+    }
+    path_.moving.assign(moving.begin(), moving.end());
+  }
+
+  const FollowedBlocks& blocks_;
+  const SupportWay& way_;
+  int support_;
+  double sign_;
+  PathLengths lengths_;
+  int threads_;
+  std::optional<PairKey> slides_first_;
+  FollowedPlace placement_;
+  std::optional<RigidModel> model_;     ///< at the placement
+  std::optional<ConeProgram> program_;  ///< of it, with the support
+  std::vector<Eigen::Vector3d> force_;  ///< of the last prediction, by point
+  std::vector<BodyVelocity> velocity_;  ///< of the last prediction
+  double last_way_ = 0.0;               ///< m, displacement of blocks by it
+  StepEnd failed_ = StepEnd::undetermined;
+  SupportPath path_;
+};
+
+}  // namespace
+
+PathLengths::PathLengths(double smallest_block, double contact_distance)
+    : reach(std::clamp(contact_distance, 0.05 * smallest_block, 0.2 * smallest_block)) {}
+
+SupportPath path_of(const SupportStart& start, const MovementSearch& search) {
+  return Path(start).follow(search);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,156 @@
+#include "solver/shared/border_pairs.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "solver/archived_geometry.hpp"
+#include "solver/contact/energy_bounds.hpp"
+#include "solver/ranks/block_share.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A recipe as sent: without rows, which the receiver computes, and without cached contacts that it has.
+struct PairMessage {
+  PairKey blocks = {-1, -1};
+  bool kept =
+      false;  ///< contacts are those of the cache sent last; besides the blocks only the start is sent
+  JointLaw law;
+  std::vector<ContactPoint> points;
+  std::vector<PressureCut> cuts;
+  std::vector<FacePair> turning;
+  std::shared_ptr<const ContactCache> cache;
+  std::vector<PointMemory> memory;
+  PatchStart start;
+};
+
+ContactBody body_of(const BlockSystem& system, const RunState& state, int block) {
+  return {&system.blocks()[at(block)], &state.states[at(block)], nullptr};
+}
+
+/// Rank of the other block of a pair that this one owns; -1: also this one.
+int other_rank(const BlockSystem& system, const PairKey& blocks) {
+  if (system.blocks()[at(blocks[0])].fixed() || system.blocks()[at(blocks[1])].fixed()) return -1;
+  const BlockShare& share = *system.share();
+  const int rank = share.owner(share.owns(blocks[0]) ? blocks[1] : blocks[0]);
+  return rank == share.ranks().own() ? -1 : rank;
+}
+
+}  // namespace
+
+ContactPair make_pair(const BlockSystem& system, const RunState& state, PairRecipe recipe) {
+  const auto [a, b] = recipe.blocks;
+  return {PairBodies{a, b, body_of(system, state, a), body_of(system, state, b)}, recipe.law,
+          std::move(recipe.patch), std::move(recipe.memory), recipe.start};
+}
+
+PairRecipe kept_recipe(const RunState& state, const PairKey& blocks, const KeptContacts& kept, JointLaw law) {
+  const PairHistory& known = history_of(state.pairs, blocks);
+  law.rounding = kept.cache->law.rounding;
+  PatchStart start;
+  start.continues = true;
+  if (law.augmented) start.frozen = known.taken;
+  return {blocks,
+          law,
+          {kept.points, kept.cache->found.cuts, kept.cache->found.turning, kept.cache->rows, kept.cache},
+          known.memory.of_same(kept.points),
+          start};
+}
+
+std::vector<PairRecipe> BorderPairs::exchange(const BlockSystem& system, const RunState& state,
+                                              const std::vector<PairRecipe>& recipes,
+                                              const std::function<JointLaw(const PairKey&)>& law_of) {
+  const auto write = [&](ByteWriter& writer, int rank) {
+    for (const PairRecipe& recipe : recipes) {
+      if (other_rank(system, recipe.blocks) != rank) continue;
+      std::shared_ptr<const ContactCache>& sent = sent_[recipe.blocks];
+      const bool kept = recipe.start.continues && sent != nullptr && sent == recipe.patch.cache;
+      sent = recipe.patch.cache;
+      if (kept) {
+        writer(PairMessage{recipe.blocks, true, {}, {}, {}, {}, nullptr, {}, recipe.start});
+      } else {
+        writer(PairMessage{recipe.blocks, false, recipe.law, recipe.patch.points, recipe.patch.cuts,
+                           recipe.patch.turning, recipe.patch.cache, recipe.memory, recipe.start});
+      }
+    }
+  };
+  std::vector<PairRecipe> received;
+  const auto kept_again = [&](const PairMessage& message) {
+    const PairKey& blocks = message.blocks;
+    const auto known = received_.find(blocks);
+    const auto any_motion = [](const Eigen::MatrixX3d&) { return 0.0; };
+    const std::optional<KeptContacts> kept =
+        known == received_.end()
+            ? std::nullopt
+            : kept_contacts(known->second, body_of(system, state, blocks[0]),
+                            body_of(system, state, blocks[1]), law_of(blocks),
+                            {std::numeric_limits<double>::infinity(), 0.0}, {any_motion, any_motion});
+    if (!kept) throw std::logic_error("contacts of blocks of two ranks are not the same on both");
+    PairRecipe recipe = kept_recipe(state, blocks, *kept, law_of(blocks));
+    // Only the owner of a pair has its account.
+    recipe.start = message.start;
+    return recipe;
+  };
+  const auto read = [&](ByteReader& reader, int) {
+    while (!reader.at_end()) {
+      PairMessage message;
+      reader(message);
+      if (message.kept) {
+        received.push_back(kept_again(message));
+        continue;
+      }
+      const BlockModel& a = system.blocks()[at(message.blocks[0])];
+      const BlockModel& b = system.blocks()[at(message.blocks[1])];
+      ContactPatch patch{std::move(message.points), std::move(message.cuts), std::move(message.turning)};
+      std::shared_ptr<const ContactCache>& cached = received_[message.blocks];
+      cached.reset();
+      if (message.cache != nullptr) {
+        ContactCache cache = *message.cache;
+        cache.rows = patch.rows = PairRows::values_of(a, b, cache.found.points);
+        cached = patch.cache = std::make_shared<const ContactCache>(std::move(cache));
+      }
+      received.push_back(
+          {message.blocks, message.law, std::move(patch), std::move(message.memory), message.start});
+    }
+  };
+  system.share()->exchange(write, read);
+  std::sort(received.begin(), received.end(),
+            [](const PairRecipe& x, const PairRecipe& y) { return x.blocks < y.blocks; });
+  return received;
+}
+
+namespace {
+
+/// Transfers of all ranks, in the order of blocks. Collective.
+EnergyTransfers gathered(const BlockSystem& system, const EnergyTransfers& own) {
+  EnergyTransfers all;
+  for (const EnergyTransfers& of_rank : values_of_ranks(system.share()->ranks(), own)) {
+    all.losses.insert(all.losses.end(), of_rank.losses.begin(), of_rank.losses.end());
+    all.claims.insert(all.claims.end(), of_rank.claims.begin(), of_rank.claims.end());
+  }
+  const auto by_blocks = [](const auto& x, const auto& y) { return x.blocks < y.blocks; };
+  std::sort(all.losses.begin(), all.losses.end(), by_blocks);
+  std::sort(all.claims.begin(), all.claims.end(), by_blocks);
+  return all;
+}
+
+}  // namespace
+
+void bound_energies(const BlockSystem& system, const RunState& state, std::vector<ContactPair>& pairs) {
+  const bool all_go_on =
+      std::all_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.goes_on(); });
+  if (all_go_on && system.share() == nullptr) return;
+  const EnergyExchange exchange{
+      [&system](const PairKey& blocks) { return system.owns_pair(blocks[0], blocks[1]); },
+      [&system](const EnergyTransfers& own) { return gathered(system, own); }};
+  const std::vector<SpringEnergy> bounds =
+      energy_bounds(pairs, state.pairs, system.moving(), system.share() == nullptr ? nullptr : &exchange);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (!pairs[k].goes_on()) pairs[k].hold_at_most(bounds[k]);
+}
+
+}  // namespace ashlar

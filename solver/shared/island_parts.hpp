@@ -1,0 +1,51 @@
+// Islands of a whole run as one rank sees them: what is summed or decided over the blocks of an island is put together
+// over the ranks. Islands are named by their lowest blocks (shared_island.hpp).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/index.hpp"
+#include "solver/contact/contact_accounts.hpp"
+#include "solver/step/accept/angular_momentum.hpp"
+#include "solver/step/step_problem.hpp"
+
+namespace ashlar {
+
+/// The part of this rank in an island; without other ranks all of it.
+struct IslandPart {
+  int first = -1;                 ///< lowest block of the island
+  bool joined = false;            ///< part of the island that ranks share
+  std::vector<int> bodies;        ///< own blocks, increasing
+  std::vector<PairKey> contacts;  ///< own pairs, ties left out
+  /// True if only its own blocks, gravity and loads act on the island, as far as this rank knows
+  bool free = true;
+  double depth = 0.0;  ///< largest of contacts as detected, m
+};
+
+/// Parts of all islands of a posed problem.
+class PartsOfRun {
+ public:
+  /// Collective. @param islands must outlive this. @param shared index of the joined island; -1: none
+  PartsOfRun(const BlockSystem& system, const std::vector<Island>& islands, int shared,
+             const std::vector<ContactPair>& pairs);
+  /// Index of the part of an own block that moves.
+  [[nodiscard]] std::size_t part_of(int block) const { return static_cast<std::size_t>(part_of_[at(block)]); }
+  /// Indices of the parts of an island.
+  [[nodiscard]] std::vector<std::size_t> of_island(const Island& island) const;
+
+  std::vector<IslandPart> parts;  ///< as many on all ranks, in the order of first blocks
+
+ private:
+  const Island* joined_;      ///< null: none
+  std::vector<int> part_of_;  ///< by block; -1: none
+};
+
+/// Sums values over ranks, a column for each part. Collective; no effect without other ranks.
+void sum_of_run(const BlockSystem& system, Eigen::MatrixXd& values);
+[[nodiscard]] SumOverRanks summed_over_ranks(const BlockSystem& system);
+
+/// Accounts of the pairs of this rank, for IslandFunds; empty without other ranks.
+[[nodiscard]] std::optional<SharedAccounts> shared_accounts(const BlockSystem& system);
+
+}  // namespace ashlar

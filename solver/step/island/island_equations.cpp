@@ -1,0 +1,341 @@
+#include "solver/step/island/island_equations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "solver/parallel_for.hpp"
+
+namespace ashlar {
+namespace {
+
+std::vector<int> places_of(const Island& island, std::size_t blocks) {
+  std::vector<int> place(blocks, -1);
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) place[at(island.bodies[k])] = static_cast<int>(k);
+  return place;
+}
+
+}  // namespace
+
+IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies,
+                             const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                             const SimulationSettings& settings, IslandSolvers::Entry& solver,
+                             const IslandRanks& ranks)
+    : island_(island),
+      bodies_(bodies),
+      pairs_(pairs),
+      settings_(settings),
+      scheme_(scheme),
+      solver_(solver),
+      ranks_(ranks),
+      bolts_(island, bodies, island.bolts.empty() ? std::vector<int>() : places_of(island, bodies.size())) {
+  const std::vector<int> place = places_of(island, bodies.size());
+  for (const int pair : island.pairs) {
+    laws_.push_back(pairs[at(pair)].laws());
+    places_.push_back({place[at(pairs[at(pair)].a())], place[at(pairs[at(pair)].b())]});
+  }
+  std::size_t own_pairs = 0;
+  for (std::size_t k = 0; k < island.pairs.size(); ++k) own_pairs += ranks.owns_pair(k) ? 1 : 0;
+  all_pairs_ = static_cast<std::size_t>(ranks.sum(static_cast<double>(own_pairs)));
+  follow_rigid_bodies();
+}
+
+void IslandProblem::follow_rigid_bodies() {
+  for (const int index : island_.bodies) bodies_[at(index)].follow_rigid(scheme_);
+}
+
+int IslandProblem::threads() const {
+  constexpr std::size_t worth_it = 32;  // pairs: below it threads cost more than they save
+  return pairs() < worth_it ? 1 : settings_.threads;
+}
+
+const ContactPair& IslandProblem::pair(std::size_t k) const {
+  if (const auto replaced = replaced_.find(k); replaced != replaced_.end()) return replaced->second;
+  return pairs_[at(island_.pairs[k])];
+}
+
+void IslandProblem::predict(Predictor guess) {
+  for (const int index : island_.bodies) {
+    BodyStep& body = bodies_[at(index)];
+    const double mass = scheme_.inertia * body.model->material().density;
+    body.change = body.free_change;
+    if (guess == Predictor::at_rest) body.change.setZero();
+    if (guess != Predictor::free_motion || scheme_.is_static()) continue;
+    body.change += scheme_.force_weight / mass * body.external_force;
+  }
+  follow_rigid_bodies();
+}
+
+Eigen::MatrixX3d IslandProblem::taken_at(const BodyStep& body) const {
+  return body.state->position + scheme_.end_share * body.motion();
+}
+
+void IslandProblem::respond() {
+  parallel_for(threads(), island_.bodies.size(), [&](std::size_t k) {
+    BodyStep& body = bodies_[at(island_.bodies[k])];
+    body.elastic = body.model->elastic(taken_at(body));
+  });
+  responses_.resize(pairs());
+  parallel_for(threads(), pairs(), [&](std::size_t k) {
+    const ContactPair& one = pair(k);
+    one.respond(bodies_[at(one.a())].change, bodies_[at(one.b())].change, scheme_.mean_contacts, laws_[k],
+                responses_[k]);
+  });
+  bolts_.respond(scheme_.mean_contacts, bolts_.size() < 32 ? 1 : settings_.threads);
+}
+
+void IslandProblem::add_force(Residual& residual, int place, const Eigen::VectorXd& on_unknowns) const {
+  const Eigen::VectorXd force = bodies_[at(island_.bodies[at(place)])].in_equations(on_unknowns);
+  residual.force.segment(solver_.matrix.offset(place), force.size()) += force;
+  residual.scales[at(place)] = std::max(residual.scales[at(place)], force.norm());
+}
+
+void IslandProblem::add_contacts(Residual& residual, std::vector<ForceErrors>& errors) const {
+  std::vector<ForceErrors> of_pairs(pairs());
+  parallel_for(threads(), pairs(), [&](std::size_t k) {
+    const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
+    const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
+    of_pairs[k] = {pair(k).force_rounding(ya, yb, laws_[k]),
+                   pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k])};
+  });
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    const auto& [a, b] = places_[k];
+    if (a >= 0) add_force(residual, a, responses_[k].total_on_a());
+    if (b >= 0) add_force(residual, b, responses_[k].total_on_b());
+    for (const int body : {a, b}) {
+      if (body < 0) continue;
+      errors[at(body)].rounding += of_pairs[k].rounding;
+      errors[at(body)].within_rounding += of_pairs[k].within_rounding;
+    }
+  }
+}
+
+void IslandProblem::add_bolts(Residual& residual, std::vector<ForceErrors>& errors) const {
+  for (std::size_t k = 0; k < bolts_.responses().size(); ++k) {
+    const double rounding = bolts_.bolt(k).force_rounding(bolts_.responses()[k]);
+    for (std::size_t n = 0; n < bolts_.places(k).size(); ++n) {
+      const int body = bolts_.places(k)[n];
+      if (body < 0) continue;
+      add_force(residual, body, bolts_.responses()[k].on_blocks[n]);
+      errors[at(body)].rounding += rounding;
+    }
+  }
+}
+
+void IslandProblem::judge(Residual& residual, const std::vector<ForceErrors>& errors) const {
+  const double tolerance =
+      scheme_.is_static() ? settings_.statics.residual_tolerance : settings_.iteration.residual_tolerance;
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    if (!ranks_.owns_body(k)) continue;
+    BodyStep& body = bodies_[at(island_.bodies[k])];
+    const double scale = residual.scales[k];
+    const double rounding = body.roundoff_force + errors[k].rounding +
+                            std::min(errors[k].within_rounding, settings_.iteration.doubt_share * scale) +
+                            8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
+                                scheme_.inertia * (body.change.norm() + body.free_change.norm());
+    const double left =
+        residual.force.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
+    if (left == 0.0) continue;
+    const double share = left / (tolerance * scale + rounding);
+    // An overflow is never converged, and comparisons with it are unreliable.
+    const bool finite = std::isfinite(share) && std::isfinite(scale);
+    residual.relative[k] = finite ? share : std::numeric_limits<double>::infinity();
+    residual.largest = std::max(residual.largest, residual.relative[k]);
+    residual.sum += residual.relative[k];
+    residual.largest_by_force =
+        std::max(residual.largest_by_force, finite ? left / scale : residual.relative[k]);
+  }
+  if (ranks_.shared()) {
+    const std::vector<double> most = ranks_.largest({residual.largest, residual.largest_by_force});
+    residual.largest = most[0];
+    residual.largest_by_force = most[1];
+    residual.sum = ranks_.sum(residual.sum);
+  }
+  recall(residual);
+}
+
+Residual IslandProblem::residual() const {
+  const std::size_t bodies = island_.bodies.size();
+  Residual result;
+  result.force = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
+  result.relative.assign(bodies, 0.0);
+  result.scales.assign(bodies, 0.0);
+  parallel_for(threads(), bodies, [&](std::size_t k) {
+    const BodyStep& body = bodies_[at(island_.bodies[k])];
+    const int place = static_cast<int>(k);
+    add_force(result, place, scheme_.force_weight * body.external_force);
+    add_force(result, place,
+              -scheme_.force_weight * body.model->space().restrict(body.internal_force(scheme_)));
+    if (body.dashpots != nullptr)
+      add_force(result, place, -scheme_.force_weight * body.dashpot_force(scheme_));
+    add_force(result, place,
+              -body.model->material().density * scheme_.inertia * (body.change - body.free_change));
+  });
+  std::vector<ForceErrors> errors(bodies);
+  add_contacts(result, errors);
+  add_bolts(result, errors);
+  judge(result, errors);
+  return result;
+}
+
+void IslandProblem::recall(const Residual& residual) const {
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    BodyStep& body = bodies_[at(island_.bodies[k])];
+    body.largest_force = residual.scales[k];
+    body.residual =
+        residual.relative[k] <= 1.0
+            ? 0.0
+            : residual.force.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom())
+                  .norm();
+  }
+}
+
+Eigen::VectorXd IslandProblem::contact_forces() const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
+  add_contact_forces(responses_, sum);
+  return sum;
+}
+
+void IslandProblem::add_contact_forces(const std::vector<PairResponse>& responses,
+                                       Eigen::VectorXd& sum) const {
+  const auto add = [&](int place, const Eigen::VectorXd& force) {
+    if (place < 0) return;
+    const BodyStep& body = this->body(at(place));
+    sum.segment(solver_.matrix.offset(place), body.model->freedom()) += body.in_equations(force);
+  };
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    add(places_[k][0], responses[k].total_on_a());
+    add(places_[k][1], responses[k].total_on_b());
+  }
+}
+
+std::vector<Eigen::VectorXd> IslandProblem::changes(const Eigen::VectorXd& change) const {
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t k = 0; k < bodies(); ++k) {
+    const int offset = solver_.matrix.offset(static_cast<int>(k));
+    result.push_back(body(k).of_unknowns(change.segment(offset, body(k).model->freedom())));
+  }
+  return result;
+}
+
+Eigen::Matrix3Xd IslandProblem::motion(std::size_t k, const std::vector<Eigen::VectorXd>& changes) const {
+  const auto change_of = [&](int place, int block) -> Eigen::VectorXd {
+    return place < 0 ? Eigen::VectorXd::Zero(bodies_[at(block)].change.size()) : changes[at(place)];
+  };
+  return pair(k).rows().free_motion(change_of(places_[k][0], pair(k).a()),
+                                    change_of(places_[k][1], pair(k).b()));
+}
+
+void IslandProblem::apply(const Eigen::VectorXd& change, double share) {
+  const std::vector<Eigen::VectorXd> of_bodies = changes(change);
+  for (std::size_t k = 0; k < bodies(); ++k) bodies_[at(island_.bodies[k])].change += share * of_bodies[k];
+  follow_rigid_bodies();
+}
+
+std::vector<Eigen::VectorXd> IslandProblem::guess() const {
+  std::vector<Eigen::VectorXd> result;
+  for (const int index : island_.bodies) result.push_back(bodies_[at(index)].change);
+  return result;
+}
+
+void IslandProblem::set_guess(const std::vector<Eigen::VectorXd>& guess) {
+  for (std::size_t k = 0; k < guess.size(); ++k) bodies_[at(island_.bodies[k])].change = guess[k];
+  follow_rigid_bodies();
+}
+
+Evaluation IslandProblem::set_aside() {
+  Evaluation result{guess(), {}, std::move(responses_), bolts_.set_aside()};
+  for (const int index : island_.bodies) result.elastic.push_back(std::move(bodies_[at(index)].elastic));
+  responses_.clear();
+  return result;
+}
+
+void IslandProblem::take_back(Evaluation evaluation) {
+  set_guess(evaluation.guess);
+  responses_ = std::move(evaluation.responses);
+  bolts_.take_back(std::move(evaluation.bolts));
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k)
+    bodies_[at(island_.bodies[k])].elastic = std::move(evaluation.elastic[k]);
+}
+
+std::vector<ContactState> IslandProblem::states() const {
+  std::vector<ContactState> result;
+  for (const PairResponse& response : responses_) {
+    for (const PointResponse& point : response.points) result.push_back(point.state);
+  }
+  return result;
+}
+
+std::vector<double> IslandProblem::gaps(std::size_t k) const {
+  return pair(k).gaps(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change);
+}
+
+double IslandProblem::given(std::size_t k) const {
+  const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
+  const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
+  return pair(k).spring_work(responses_[k], ya, yb) + pair(k).friction_work(responses_[k], laws_[k], ya, yb);
+}
+
+BlockInStep IslandProblem::placed(const BodyStep& body) const {
+  if (body.model->fixed()) return {body.model, body.state->position, body.state->position, {}};
+  const Eigen::MatrixX3d motion = body.motion();
+  return {body.model, body.state->position + 0.5 * motion, body.state->position + motion, body.prescribed};
+}
+
+double IslandProblem::left_out(std::size_t k) const {
+  const BodyStep& a = bodies_[at(pair(k).a())];
+  const BodyStep& b = bodies_[at(pair(k).b())];
+  const Eigen::Matrix3Xd motion = pair(k).motion(a.change, b.change);
+  const auto slip = [&](const Eigen::Matrix3Xd& way) {
+    double most = 0.0;
+    for (std::size_t n = 0; n < responses_[k].points.size(); ++n) {
+      if (responses_[k].points[n].state == ContactState::open) continue;
+      most = std::max(most, way.col(static_cast<Eigen::Index>(n)).tail<2>().norm());
+    }
+    return most;
+  };
+  const auto turn = [](const BlockModel& model, const Eigen::MatrixX3d& way) {
+    return (way.transpose() * model.parts()->mean_gradients).norm();
+  };
+  const auto turned = [&](const BodyStep& body) {
+    return body.model->fixed() ? 0.0 : turn(*body.model, body.motion());
+  };
+  const auto found = followed_.find(k);
+  const double slipped = slip(motion);
+  if (slipped == 0.0) return 0.0;
+  const double turns = std::max(turned(a), turned(b));
+  if (found == followed_.end()) return turns * slipped;
+  const auto turned_since = [&](const BodyStep& body, const Eigen::VectorXd& change) {
+    return body.model->fixed() ? 0.0 : turn(*body.model, body.model->space().expand(body.change - change));
+  };
+  return turns * slip(motion - found->second.motion) +
+         std::max(turned_since(a, found->second.change_a), turned_since(b, found->second.change_b)) * slipped;
+}
+
+bool IslandProblem::follow_contacts(double tolerance) {
+  bool any = bolts_.follow(tolerance);
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    if (pair(k).tied() || !(left_out(k) > tolerance)) continue;
+    const BodyStep& a = bodies_[at(pair(k).a())];
+    const BodyStep& b = bodies_[at(pair(k).b())];
+    ContactPair& moved = replaced_.try_emplace(k, pair(k)).first->second;
+    moved.follow(placed(a), placed(b), a.change, b.change);
+    followed_.insert_or_assign(k, Followed{a.change, b.change, moved.motion(a.change, b.change)});
+    any = true;
+  }
+  return any;
+}
+
+void IslandProblem::hand_over(IslandResult& result) {
+  for (auto& [k, pair] : replaced_) result.followed.emplace_back(island_.pairs[k], std::move(pair));
+  for (std::size_t k = 0; k < bolts_.responses().size(); ++k) {
+    const StepBoltResponse& response = bolts_.responses()[k];
+    result.bolts.push_back({response, bolts_.bolt(k).work(response, bolts_.changes(k)),
+                            bolts_.bolt(k).prescribed_work(response)});
+  }
+  result.responses = std::move(responses_);
+  result.laws = std::move(laws_);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,246 @@
+#include "solver/step/island/island_tangent.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "solver/linear/gmres.hpp"
+#include "solver/parallel_for.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Projects a tangent on the unknowns of two blocks to their equations.
+PairTangent in_equations(PairTangent tangent, const BodyStep& a, const BodyStep& b) {
+  if (a.model->rigid()) {
+    if (tangent.aa.size() > 0) tangent.aa = a.fields.transpose() * tangent.aa * a.fields;
+    if (tangent.ab.size() > 0) tangent.ab = a.fields.transpose() * tangent.ab;
+  }
+  if (b.model->rigid()) {
+    if (tangent.bb.size() > 0) tangent.bb = b.fields.transpose() * tangent.bb * b.fields;
+    if (tangent.ab.size() > 0) tangent.ab = tangent.ab * b.fields;
+  }
+  return tangent;
+}
+
+/// @param x,y (9, #points) or without columns: nothing
+PointStiffnesses sum(PointStiffnesses x, const PointStiffnesses& y) {
+  if (x.cols() == 0) return y;
+  if (y.cols() > 0) x += y;
+  return x;
+}
+
+}  // namespace
+
+double IslandTangent::weight_of_blocks() const {
+  const TimeScheme& scheme = problem_.scheme();
+  return scheme.force_weight * scheme.end_share * (1.0 + scheme.stiffness_share);
+}
+
+double IslandTangent::weight_of_dashpots() const {
+  return problem_.scheme().force_weight * problem_.scheme().dashpot_velocity.change;
+}
+
+void IslandTangent::assemble(bool positive) {
+  const TimeScheme& scheme = problem_.scheme();
+  BlockMatrix& matrix = solver_.matrix;
+  matrix.set_zero();
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    const BodyStep& body = problem_.body(k);
+    if (scheme.force_weight > 0.0 && !body.model->rigid()) {
+      matrix.add_diagonal(
+          static_cast<int>(k),
+          weight_of_blocks() * body.model->tangent(problem_.taken_at(body), body.elastic, positive));
+    }
+    if (body.dashpots != nullptr)
+      matrix.add_diagonal(static_cast<int>(k), weight_of_dashpots() * *body.dashpots);
+    matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme.inertia);
+  }
+  std::vector<PairTangent> tangents(problem_.pairs());
+  parallel_for(problem_.threads(), problem_.pairs(), [&](std::size_t k) {
+    const ContactPair& pair = problem_.pair(k);
+    tangents[k] = in_equations(pair.tangent(problem_.responses()[k]), problem_.block(pair.a()),
+                               problem_.block(pair.b()));
+  });
+  for (std::size_t k = 0; k < problem_.pairs(); ++k) {
+    const PairTangent& tangent = tangents[k];
+    const auto& [a, b] = problem_.places(k);
+    if (a >= 0) matrix.add_diagonal(a, tangent.aa);
+    if (b >= 0) matrix.add_diagonal(b, tangent.bb);
+    if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
+  }
+  problem_.bolts().add_tangents(matrix);
+  assembled_ = true;
+}
+
+FactorStatus IslandTangent::factorize_assembled(bool kept) {
+  factor_is_old_ = false;
+  solver_.inertia = 0.0;
+  FactorStatus status = solver_.factor->factorize(solver_.matrix.matrix());
+  if (status == FactorStatus::not_positive_definite) {
+    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to the balance of forces.
+    assemble(true);
+    status = solver_.factor->factorize(solver_.matrix.matrix());
+  }
+  const bool is_dear = solver_.factor->cost_in_solves() > problem_.settings().iteration.old_factor_gain;
+  if (kept && is_dear && status == FactorStatus::success) solver_.inertia = problem_.scheme().inertia;
+  return status;
+}
+
+FactorStatus IslandTangent::factorize() {
+  assemble(false);
+  return factorize_assembled(false);
+}
+
+FactorStatus IslandTangent::update_factor() {
+  const TimeScheme& scheme = problem_.scheme();
+  factor_is_old_ = !scheme.is_static() && solver_.inertia == scheme.inertia;
+  assembled_ = false;
+  if (factor_is_old_ && products_pay()) return FactorStatus::success;
+  assemble(false);
+  return factor_is_old_ ? FactorStatus::success : factorize_assembled(!scheme.is_static());
+}
+
+bool IslandTangent::products_pay() const {
+  double to_assemble = 0.0;  // multiplications
+  double product = 0.0;
+  double unable = 0.0;  // bodies whose tangent is not known as a product
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    if (!problem_.ranks().owns_body(k)) continue;
+    const BlockModel& model = *problem_.body(k).model;
+    if (!model.tangent_turns()) unable += 1.0;
+    const auto n = static_cast<double>(model.unknowns());
+    to_assemble += 6.0 * n * n;  // two halves of R K R'
+    product += n * n;
+  }
+  for (std::size_t k = 0; k < problem_.pairs(); ++k) {
+    if (!problem_.ranks().owns_pair(k)) continue;
+    const auto unknowns = [&](int place) {
+      return place < 0 ? 0.0 : static_cast<double>(problem_.body(at(place)).model->unknowns());
+    };
+    const double a = unknowns(problem_.places(k)[0]);
+    const double b = unknowns(problem_.places(k)[1]);
+    const auto points = static_cast<double>(problem_.responses()[k].means.size());
+    to_assemble += points * 2.0 / 3.0 * (a * a + a * b + b * b);
+    product += points * 2.0 * (a + b);
+  }
+  const std::vector<double> all = problem_.ranks().sum({to_assemble, product, unable});
+  return all[2] == 0.0 && all[0] > problem_.settings().iteration.old_factor_iterations * all[1];
+}
+
+void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const {
+  const TimeScheme& scheme = problem_.scheme();
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    const BodyStep& body = problem_.body(k);
+    const int offset = solver_.matrix.offset(static_cast<int>(k));
+    const Eigen::VectorXd of_body = x.segment(offset, body.model->freedom());
+    force.segment(offset, of_body.size()) += body.model->material().density * scheme.inertia * of_body;
+    if (scheme.force_weight > 0.0 && !body.model->rigid()) {
+      force.segment(offset, of_body.size()) +=
+          weight_of_blocks() * body.model->tangent_times(body.elastic.rotation, of_body);
+    }
+    if (body.dashpots != nullptr)
+      force.segment(offset, of_body.size()) += weight_of_dashpots() * (*body.dashpots * of_body);
+  }
+}
+
+void IslandTangent::add_pairs(std::vector<PairProduct>& products, bool with_bolts, const Eigen::VectorXd& x,
+                              Eigen::VectorXd& force) const {
+  const auto equations = [&](auto& of_island, std::size_t k) {
+    return of_island.segment(solver_.matrix.offset(static_cast<int>(k)), problem_.body(k).model->freedom());
+  };
+  std::vector<Eigen::VectorXd> changes, forces;  // of each body, in its unknowns
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    changes.push_back(problem_.body(k).of_unknowns(equations(x, k)));
+    forces.emplace_back(Eigen::VectorXd::Zero(changes[k].size()));
+  }
+  const Eigen::VectorXd none;  // of fixed blocks
+  const auto of = [](int place, const auto& of_bodies, const auto& otherwise) -> const auto& {
+    return place < 0 ? otherwise : of_bodies[at(place)];
+  };
+  parallel_for(problem_.threads(), products.size(), [&](std::size_t n) {
+    PairProduct& one = products[n];
+    const auto& [a, b] = problem_.places(one.pair);
+    const Eigen::VectorXd& of_a = of(a, changes, none);
+    const Eigen::VectorXd& of_b = of(b, changes, none);
+    one.on_a.setZero(of_a.size());
+    one.on_b.setZero(of_b.size());
+    problem_.pair(one.pair).rows().add_product(one.points, of_a, of_b, one.on_a, one.on_b);
+  });
+  // In the order of pairs, independent of the threads.
+  for (const PairProduct& one : products) {
+    const auto& [a, b] = problem_.places(one.pair);
+    if (a >= 0) forces[at(a)] += one.on_a;
+    if (b >= 0) forces[at(b)] += one.on_b;
+  }
+  if (with_bolts) problem_.bolts().add_products(changes, forces);
+  for (std::size_t k = 0; k < problem_.bodies(); ++k)
+    equations(force, k) += problem_.body(k).in_equations(forces[k]);
+}
+
+std::vector<IslandTangent::PairProduct> IslandTangent::products_of(
+    const std::function<PointStiffnesses(std::size_t)>& stiffnesses) const {
+  std::vector<PointStiffnesses> all(problem_.pairs());
+  parallel_for(problem_.threads(), all.size(), [&](std::size_t k) { all[k] = stiffnesses(k); });
+  std::vector<PairProduct> products;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].cols() > 0) products.push_back({k, std::move(all[k]), {}, {}});
+  return products;
+}
+
+std::optional<Eigen::VectorXd> IslandTangent::solve_with_old(const Eigen::VectorXd& right_side,
+                                                             bool coupled) const {
+  const IterationSettings& settings = problem_.settings().iteration;
+  std::vector<PairProduct> products = products_of([&](std::size_t k) {
+    const PairResponse& response = problem_.responses()[k];
+    const PairRows& rows = problem_.pair(k).rows();
+    PointStiffnesses points;
+    if (!assembled_) points = rows.stiffnesses(response);
+    return coupled ? sum(std::move(points), rows.couplings(response)) : points;
+  });
+  const auto preconditioned = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    Eigen::VectorXd force = assembled_ ? times(solver_.matrix.matrix(), x) : Eigen::VectorXd::Zero(x.size());
+    if (!assembled_) add_blocks(x, force);
+    add_pairs(products, !assembled_, x, force);
+    return solver_.factor->solve(force, false);
+  };
+  const KrylovSolution found =
+      gmres(preconditioned, solver_.factor->solve(right_side, false), settings.krylov_tolerance,
+            settings.old_factor_iterations, inner_products());
+  if (!found.converged) return std::nullopt;
+  const bool has_bodies = problem_.ranks().shared() || right_side.size() > 0;
+  if (has_bodies && !(problem_.dot(right_side, found.x) > 0.0)) return std::nullopt;
+  return found.x;
+}
+
+InnerProducts IslandTangent::inner_products() const {
+  if (!problem_.ranks().shared()) return {};
+  return [this](const Eigen::Ref<const Eigen::MatrixXd>& columns, const Eigen::VectorXd& x) {
+    return problem_.ranks().dot(columns, x);
+  };
+}
+
+Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool coupled) {
+  if (factor_is_old_) {
+    if (std::optional<Eigen::VectorXd> found = solve_with_old(right_side, coupled)) return *std::move(found);
+    if (!assembled_) assemble(false);
+    if (factorize_assembled(true) != FactorStatus::success)
+      return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  std::vector<PairProduct> couplings;
+  if (coupled)
+    couplings = products_of(
+        [&](std::size_t k) { return problem_.pair(k).rows().couplings(problem_.responses()[k]); });
+  if (!problem_.ranks().any(!couplings.empty())) return solver_.factor->solve(right_side);
+  const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
+    add_pairs(couplings, false, x, force);
+    return x + solver_.factor->solve(force, false);
+  };
+  const IterationSettings& settings = problem_.settings().iteration;
+  return gmres(with_couplings, solver_.factor->solve(right_side), settings.krylov_tolerance,
+               settings.krylov_iterations, inner_products())
+      .x;
+}
+
+}  // namespace ashlar
