@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "sample_limits.hpp"
 #include "solver/limit/least_strength.hpp"
 #include "solver/limit/limit_analysis.hpp"
 #include "solver/paths/thrust.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::crushing_joints_test {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::limit_analysis_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::limit_motion_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::pulled_joints_test {
 namespace {

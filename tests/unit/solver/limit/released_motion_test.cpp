@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::released_motion_test {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "sample_limits.hpp"
 #include "solver/paths/thrust.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::rigid_bolts_test {
 namespace {

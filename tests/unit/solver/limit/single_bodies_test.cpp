@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::single_bodies_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::followed_collapse_test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::load_path_test {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "sample_limits.hpp"
-#include "sample_spread_arch.hpp"
 #include "solver/paths/thrust.hpp"
 #include "solver/paths/yielding_support.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
+#include "unit/solver/statics/sample_spread_arch.hpp"
 
 namespace ashlar::support_movement_test {
 namespace {

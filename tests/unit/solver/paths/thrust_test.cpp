@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sample_limits.hpp"
+#include "unit/solver/statics/sample_limits.hpp"
 
 namespace ashlar::thrust_test {
 namespace {
