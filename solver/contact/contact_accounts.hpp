@@ -14,10 +14,10 @@ namespace ashlar {
 /// @return energy released beyond the account, J, >= 0: the account is empty then
 [[nodiscard]] double book(double work, double& account);
 
-/// The accounts of a run that ranks share.
+/// The accounts of a run that processes share.
 struct SharedAccounts {
-  std::function<bool(const PairKey&)> owns;  ///< pairs whose accounts this rank keeps
-  std::function<std::vector<double>(const std::vector<double>& values)> sum;  ///< over ranks
+  std::function<bool(const PairKey&)> owns;  ///< pairs whose accounts this process keeps
+  std::function<std::vector<double>(const std::vector<double>& values)> sum;  ///< over processes
 };
 
 /// Energy that islands may use: each all accounts of its own pairs, then the accounts of pairs in no island as far as
@@ -25,8 +25,8 @@ struct SharedAccounts {
 class IslandFunds {
  public:
   /// @param islands pairs of each, none in two
-  /// @param shared null: one rank has all accounts. Otherwise collective: islands are the same on all ranks, each with the
-  /// pairs that this rank owns, and all ranks use the same energies
+  /// @param shared null: one process has all accounts. Otherwise collective: islands are the same on all processes, each with the
+  /// pairs that this process owns, and all processes use the same energies
   IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands,
               const SharedAccounts* shared = nullptr);
   /// Available energy, J, >= 0.
@@ -39,7 +39,7 @@ class IslandFunds {
   void spend_from(PairHistories& histories) const;
 
  private:
-  /// Accounts of all ranks before anything is used.
+  /// Accounts of all processes before anything is used.
   struct Sum {
     double energy = 0.0;  ///< J
     double pairs = 0.0;   ///< their number

@@ -31,7 +31,7 @@ struct EnergyTransfers {
   std::vector<EnergyClaim> claims;
 };
 
-/// Which pairs a rank speaks for, and the transfers of all ranks from those of each.
+/// Which pairs a process speaks for, and the transfers of all processes from those of each.
 struct EnergyExchange {
   std::function<bool(const PairKey&)> owns;
   std::function<EnergyTransfers(const EnergyTransfers&)> gather;

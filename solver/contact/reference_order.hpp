@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
-#include "solver/ranks/placed_volume.hpp"
+#include "solver/contact/placed_volume.hpp"
 
 namespace ashlar {
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/contact/placed_volume.hpp"
 #include "solver/ranks/measured_solver.hpp"
-#include "solver/ranks/placed_volume.hpp"
 #include "solver/ranks/rank_messages.hpp"
 
 namespace ashlar {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/detect/step_contacts.hpp"
 
 namespace ashlar {
@@ -111,15 +111,14 @@ std::map<PairKey, ContactMemory> loaded_contacts(const BlockSystem& system,
   return contacts;
 }
 
-/// The largest share of all ranks, of equal ones that of the lowest block. Collective.
+/// The largest share of all processes, of equal ones that of the lowest block. Collective.
 std::optional<StressImbalance> worst_of_run(const BlockSystem& system, std::optional<StressImbalance> here) {
-  if (system.share() == nullptr) return here;
   std::optional<StressImbalance> worst;
-  for (const auto& of_rank : values_of_ranks(system.share()->ranks(), here)) {
-    if (!of_rank) continue;
-    if (!worst || of_rank->share > worst->share ||
-        (of_rank->share == worst->share && of_rank->block < worst->block))
-      worst = of_rank;
+  for (const auto& of_process : values_of_run(system, here)) {
+    if (!of_process) continue;
+    if (!worst || of_process->share > worst->share ||
+        (of_process->share == worst->share && of_process->block < worst->block))
+      worst = of_process;
   }
   return worst;
 }
@@ -134,10 +133,7 @@ StressedContacts contacts_under_stress(const BlockSystem& system, RunState& stat
   const std::vector<ContactPair> pairs = contacts.pairs(system, state, found, PairUse::statics);
   const auto load = [&] { result.contacts = loaded_contacts(system, pairs, forces); };
   // Stresses may have no value somewhere.
-  if (system.share() == nullptr)
-    load();
-  else
-    do_on_all(system.share()->ranks(), load);
+  system.exchange().on_all(load);
   result.worst = worst_of_run(system, forces.worst(system));
   return result;
 }

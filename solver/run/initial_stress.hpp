@@ -30,7 +30,7 @@ struct StressedContacts {
 ///   N = -n . s n A,  shear force on a = -(s n - n (n . s n)) A,   n out of b
 /// A spring gets a rest gap N / kn above the surface and a slip, a point with multipliers the forces themselves. A point
 /// that the stress pulls begins without force, as does its shear.
-/// With several ranks collective, for the pairs of own blocks; the worst block is that of the run.
+/// With several processes collective, for the pairs of own blocks; the worst block is that of the run.
 /// @param state at its start, with blocks as placed.
 [[nodiscard]] StressedContacts contacts_under_stress(const BlockSystem& system, RunState& state);
 

@@ -14,13 +14,13 @@
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/contact_explanation.hpp"
 #include "solver/run/stage_start.hpp"
-#include "solver/shared/agreement.hpp"
 #include "solver/shared/gathered_run.hpp"
 #include "solver/shared/ghost_models.hpp"
 #include "solver/shared/rank_balance.hpp"
 #include "solver/shared/shared_bolts.hpp"
 #include "solver/shared/shared_snapshot.hpp"
 #include "solver/shared/shared_verdict.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
@@ -46,7 +46,7 @@ Simulation::Simulation(std::unique_ptr<SharedBlocks> shared, std::vector<BlockMo
                        std::vector<bool> absent)
     : shared_(std::move(shared)),
       system_(std::move(blocks), std::move(law), settings, ties,
-              shared_ ? shared_->absent : std::move(absent), shared_ ? shared_->share.get() : nullptr),
+              shared_ ? shared_->absent : std::move(absent), shared_ ? *shared_->exchange : no_exchange()),
       caches_{StepContacts(system_), FactorCache(settings.linear_method),
               DepthAudit(system_.blocks().size())} {
   state_.next_step = settings.time_step;
@@ -67,15 +67,15 @@ Simulation::Simulation(std::unique_ptr<SharedBlocks> shared, std::vector<BlockMo
 }
 
 RunContext Simulation::context() {
-  return {system_, state_, caches_, fault_, shared_.get()};
+  return {system_, state_, caches_, fault_};
 }
 
 void Simulation::gather_results(const ResultNeeds& needs, const ShownContacts& shown) {
   told_.reset();
   if (shared_ == nullptr) return;
-  const CountedTraffic traffic(system_.share()->ranks(), shared_->for_results);
+  const CountedTraffic traffic(shared_->share->ranks(), shared_->for_results);
   ToldResults told{totals_of_run(*this, shown), {}, {}, {}};
-  const bool first = system_.share()->ranks().own() == 0;
+  const bool first = system_.exchange().first();
   send_bolts_to_first(system_, state_);
   if (needs.all || !needs.pairs.empty()) told.contacts = contacts_of_run(*this, needs);
   if (needs.all || !needs.blocks.empty()) {
@@ -109,7 +109,7 @@ std::vector<char> Simulation::points_without_strength(const PairRecord& record) 
 }
 
 void Simulation::refuse_ranks(const char* what) const {
-  if (shared_ != nullptr && !system_.share()->ranks().alone())
+  if (!system_.exchange().alone())
     throw std::invalid_argument(std::string(what) + " are possible on one rank only so far");
 }
 
@@ -162,10 +162,7 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
       state_.pairs[blocks].overlap = depth;
     }
   };
-  if (shared_ == nullptr)
-    take();
-  else
-    do_on_all(system_.share()->ranks(), take);
+  system_.exchange().on_all(take);
   if (depths.empty()) return;
   // The initial depth of contacts determines the depth that later contacts may have without force.
   std::map<PairKey, double> placed;
@@ -175,9 +172,8 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
     double& deepest = placed[{pair.a(), pair.b()}];
     for (const ContactPoint& point : pair.points()) deepest = std::max(deepest, point.overlap);
   }
-  if (shared_ != nullptr)
-    for (const auto& of_rank : values_of_ranks(system_.share()->ranks(), placed))
-      placed.insert(of_rank.begin(), of_rank.end());
+  for (const auto& of_process : values_of_run(system_, std::map(placed)))
+    placed.insert(of_process.begin(), of_process.end());
   state_.pairs.clear();
   for (const auto& [blocks, deepest] : placed)
     if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;
@@ -188,20 +184,15 @@ std::optional<StressImbalance> Simulation::start_stressed() {
   StressedContacts start = contacts_under_stress(system_, state_);
   for (auto& [blocks, memory] : start.contacts) state_.pairs[blocks].memory = std::move(memory);
   // Points under stress reach farther than those without.
-  if (shared_ != nullptr) find_ghosts(*shared_, system_, state_, caches_);
+  system_.exchange().find_neighbours(context(), 0.0);
   return start.worst;
 }
 
 void Simulation::add_bolts(std::vector<Bolt> bolts) {
   refuse_late("add_bolts");
   if (!system_.bolts().empty()) throw std::logic_error("all bolts of a run are added together");
-  const auto set = [&] { system_.set_bolts(std::move(bolts)); };
-  if (shared_ == nullptr) {
-    set();
-  } else {
-    do_on_all(system_.share()->ranks(), set);
-    find_ghosts(*shared_, system_, state_, caches_);
-  }
+  system_.exchange().on_all([&] { system_.set_bolts(std::move(bolts)); });
+  system_.exchange().find_neighbours(context(), 0.0);
   state_.ledger.springs_hold(install_bolts(system_, state_));
   state_.ledger.start(system_, state_.states);
 }
@@ -250,10 +241,10 @@ void Simulation::start_stage(const Simulation& last) {
   if (shared_ == nullptr) return start_stage(last.snapshot(), last.system_.absent());
   refuse_late("start_stage");
   told_.reset();
-  const bool first = system_.share()->ranks().own() == 0;
+  const bool first = system_.exchange().first();
   SimulationSnapshot end = last.snapshot_without_pairs();
   if (!first) end = {};
-  end = std::move(values_of_ranks(system_.share()->ranks(), end).front());
+  end = std::move(values_of_run(system_, end).front());
   PairsOfRun pairs = last.pairs_of_run(PairVisitors::all);
   add_pairs_of_rank(system_, pairs, end);
   ashlar::start_stage(context(), end, last.system_.absent());
@@ -346,7 +337,7 @@ SimulationSnapshot Simulation::snapshot() const {
 SimulationSnapshot Simulation::snapshot_without_pairs() const {
   SimulationSnapshot part = ashlar::snapshot_without_pairs(system_, state_, caches_);
   if (shared_ == nullptr) return part;
-  const CountedTraffic traffic(system_.share()->ranks(), shared_->for_results);
+  const CountedTraffic traffic(shared_->share->ranks(), shared_->for_results);
   return whole_without_pairs(system_, std::move(part), told_ ? &told_->totals : nullptr);
 }
 

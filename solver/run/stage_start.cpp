@@ -10,6 +10,7 @@
 #include "solver/archived_geometry.hpp"
 #include "solver/shared/ghosts.hpp"
 #include "solver/shared/shared_snapshot.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/step/accept/accepted_bolts.hpp"
 #include "solver/step/accept/quiet_release.hpp"
@@ -17,14 +18,14 @@
 namespace ashlar {
 namespace {
 
-/// True if the snapshot fits the blocks of this rank: it has states with these numbers of functions.
+/// True if the snapshot fits the blocks of this process: it has states with these numbers of functions.
 bool fits(const BlockSystem& system, const RunState& state, const SimulationSnapshot& end,
           const std::vector<bool>& was_absent) {
   const std::vector<BlockState>& states = end.run.states;
   if (end.run.bolts.size() != state.bolts.size()) return false;
   bool same = states.size() == system.blocks().size() && was_absent.size() == states.size();
   for (int k = 0; same && k < system.count(); ++k) {
-    if (system.share() != nullptr && !system.here(k)) continue;
+    if (!system.exchange().alone() && !system.here(k)) continue;
     same = states[at(k)].position.rows() == state.states[at(k)].position.rows() &&
            end.carried.contains(k) == (system.blocks()[at(k)].incremental() != nullptr);
   }
@@ -37,7 +38,7 @@ struct StrainedTie {
   std::string fault;  ///< empty: there is none
 };
 
-/// The first one of this rank. Ties of added blocks to others are relative to the placed blocks.
+/// The first one of this process. Ties of added blocks to others are relative to the placed blocks.
 StrainedTie strained_tie(const BlockSystem& system, const RunState& state,
                          const std::vector<bool>& was_absent) {
   // Of the search distance: a tie of this gap has hardly any stress.
@@ -62,17 +63,17 @@ StrainedTie strained_tie(const BlockSystem& system, const RunState& state,
   return {};
 }
 
-/// With several ranks collective.
+/// With several processes collective.
 void refuse_strained_ties(const BlockSystem& system, const RunState& state,
                           const std::vector<bool>& was_absent) {
   StrainedTie first = strained_tie(system, state, was_absent);
-  if (system.share() != nullptr)
-    for (StrainedTie& tie : values_of_ranks(system.share()->ranks(), first))
+  if (!system.exchange().alone())
+    for (StrainedTie& tie : values_of_run(system, first))
       if (first.fault.empty() || (!tie.fault.empty() && tie.blocks < first.blocks)) first = std::move(tie);
   if (!first.fault.empty()) throw std::invalid_argument(first.fault);
 }
 
-/// The start of a stage, seen from one rank.
+/// The start of a stage, seen from one process.
 class StageStart {
  public:
   StageStart(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent)
@@ -80,7 +81,7 @@ class StageStart {
 
   /// Not collective.
   void take_blocks();
-  /// With several ranks collective.
+  /// With several processes collective.
   void take_contacts();
 
  private:
@@ -120,14 +121,14 @@ void StageStart::take_contacts() {
   const auto take = [this](const PairKey& blocks, PairHistory history) {
     if (stay(blocks[0], blocks[1])) take_history(blocks, std::move(history));
   };
-  if (run_.shared == nullptr) {
+  if (system_.exchange().alone()) {
     for (const auto& [blocks, history] : end_.run.pairs) take(blocks, history);
   } else {
-    // Dilation lets joints reach farther, and so determines ghosts.
+    // Dilation lets joints reach farther, and so determines neighbours.
     take_histories(system_, end_.run.pairs, take);
-    find_ghosts(*run_.shared, system_, state_, run_.caches);
+    system_.exchange().find_neighbours(run_, 0.0);
     take_histories(system_, end_.run.pairs, take);
-    update_ghost_contacts(system_, state_);
+    system_.exchange().tell_contacts(system_, state_);
   }
   refuse_strained_ties(system_, state_, was_absent_);
   double in_springs = take_records();
@@ -165,10 +166,7 @@ double StageStart::take_records() {
 void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
   RunState& state = run.state;
   StageStart stage(run, end, was_absent);
-  if (run.shared == nullptr)
-    stage.take_blocks();
-  else
-    do_on_all(run.shared->share->ranks(), [&stage] { stage.take_blocks(); });
+  run.system.exchange().on_all([&stage] { stage.take_blocks(); });
   stage.take_contacts();
   state.steps = end.run.steps;
   state.remembers_statics = true;
@@ -176,15 +174,6 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
   state.extremes = end.run.extremes;
   state.log = end.run.log;
   state.ledger.start(run.system, state.states);
-}
-
-void continue_work(const SharedBlocks& before, SharedBlocks& now) {
-  now.searches += before.searches;
-  now.for_results += before.for_results;
-  now.balance.repartitions += before.balance.repartitions;
-  now.earlier += before.earlier;
-  now.earlier += before.share->solver().work();
-  now.earlier += before.share->step_solver().work();
 }
 
 }  // namespace ashlar

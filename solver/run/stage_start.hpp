@@ -6,7 +6,7 @@
 // one. Loads keep the factors set by Simulation::set_load_factor. The count of steps continues; the clock, the ledger
 // and the work of contacts are reset.
 //
-// On several ranks a stage has other owners than the last one: each rank takes what its blocks and ghosts need from the
+// On several processes a stage has other owners than the last one: each process takes what its blocks and neighbours need from the
 // snapshot of the whole run, as after a checkpoint, with the pairs of its own blocks alone (shared/shared_snapshot.hpp).
 #pragma once
 
@@ -18,14 +18,11 @@
 namespace ashlar {
 
 /// Starts a run whose contacts have not been detected yet. Blocks that were absent start where it has placed them. With
-/// several ranks collective.
-/// @param end of the stage before; of the whole run, with the pairs that this rank may need (add_pairs_of_rank) or all
+/// several processes collective.
+/// @param end of the stage before; of the whole run, with the pairs that this process may need (add_pairs_of_rank) or all
 /// @param was_absent in it, by block
 /// @throws std::invalid_argument if it has other blocks or other orders, or if a block that was absent is tied to one that
-/// has moved; on all ranks the same
+/// has moved; on all processes the same
 void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent);
-
-/// Counts the work of a rank in the stage before together with that of the present one.
-void continue_work(const SharedBlocks& before, SharedBlocks& now);
 
 }  // namespace ashlar

@@ -8,8 +8,8 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
-#include "solver/contact/energy_bounds.hpp"
-#include "solver/ranks/block_share.hpp"
+#include "solver/contact/contact_cache.hpp"
+#include "solver/shared/shared_step.hpp"
 
 namespace ashlar {
 namespace {
@@ -35,31 +35,12 @@ ContactBody body_of(const BlockSystem& system, const RunState& state, int block)
 /// Rank of the other block of a pair that this one owns; -1: also this one.
 int other_rank(const BlockSystem& system, const PairKey& blocks) {
   if (system.blocks()[at(blocks[0])].fixed() || system.blocks()[at(blocks[1])].fixed()) return -1;
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   const int rank = share.owner(share.owns(blocks[0]) ? blocks[1] : blocks[0]);
   return rank == share.ranks().own() ? -1 : rank;
 }
 
 }  // namespace
-
-ContactPair make_pair(const BlockSystem& system, const RunState& state, PairRecipe recipe) {
-  const auto [a, b] = recipe.blocks;
-  return {PairBodies{a, b, body_of(system, state, a), body_of(system, state, b)}, recipe.law,
-          std::move(recipe.patch), std::move(recipe.memory), recipe.start};
-}
-
-PairRecipe kept_recipe(const RunState& state, const PairKey& blocks, const KeptContacts& kept, JointLaw law) {
-  const PairHistory& known = history_of(state.pairs, blocks);
-  law.rounding = kept.cache->law.rounding;
-  PatchStart start;
-  start.continues = true;
-  if (law.augmented) start.frozen = known.taken;
-  return {blocks,
-          law,
-          {kept.points, kept.cache->found.cuts, kept.cache->found.turning, kept.cache->rows, kept.cache},
-          known.memory.of_same(kept.points),
-          start};
-}
 
 std::vector<PairRecipe> BorderPairs::exchange(const BlockSystem& system, const RunState& state,
                                               const std::vector<PairRecipe>& recipes,
@@ -117,40 +98,10 @@ std::vector<PairRecipe> BorderPairs::exchange(const BlockSystem& system, const R
           {message.blocks, message.law, std::move(patch), std::move(message.memory), message.start});
     }
   };
-  system.share()->exchange(write, read);
+  share_of(system).exchange(write, read);
   std::sort(received.begin(), received.end(),
             [](const PairRecipe& x, const PairRecipe& y) { return x.blocks < y.blocks; });
   return received;
-}
-
-namespace {
-
-/// Transfers of all ranks, in the order of blocks. Collective.
-EnergyTransfers gathered(const BlockSystem& system, const EnergyTransfers& own) {
-  EnergyTransfers all;
-  for (const EnergyTransfers& of_rank : values_of_ranks(system.share()->ranks(), own)) {
-    all.losses.insert(all.losses.end(), of_rank.losses.begin(), of_rank.losses.end());
-    all.claims.insert(all.claims.end(), of_rank.claims.begin(), of_rank.claims.end());
-  }
-  const auto by_blocks = [](const auto& x, const auto& y) { return x.blocks < y.blocks; };
-  std::sort(all.losses.begin(), all.losses.end(), by_blocks);
-  std::sort(all.claims.begin(), all.claims.end(), by_blocks);
-  return all;
-}
-
-}  // namespace
-
-void bound_energies(const BlockSystem& system, const RunState& state, std::vector<ContactPair>& pairs) {
-  const bool all_go_on =
-      std::all_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.goes_on(); });
-  if (all_go_on && system.share() == nullptr) return;
-  const EnergyExchange exchange{
-      [&system](const PairKey& blocks) { return system.owns_pair(blocks[0], blocks[1]); },
-      [&system](const EnergyTransfers& own) { return gathered(system, own); }};
-  const std::vector<SpringEnergy> bounds =
-      energy_bounds(pairs, state.pairs, system.moving(), system.share() == nullptr ? nullptr : &exchange);
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (!pairs[k].goes_on()) pairs[k].hold_at_most(bounds[k]);
 }
 
 }  // namespace ashlar

@@ -8,25 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "solver/contact/contact_pair.hpp"
-#include "solver/state/block_system.hpp"
-#include "solver/state/run_state.hpp"
+#include "solver/step/detect/pair_recipe.hpp"
 
 namespace ashlar {
-
-/// Data that a contact pair is made from, besides its blocks.
-struct PairRecipe {
-  PairKey blocks = {-1, -1};
-  JointLaw law;
-  ContactPatch patch;
-  std::vector<PointMemory> memory;  ///< (#points)
-  PatchStart start;
-};
-[[nodiscard]] ContactPair make_pair(const BlockSystem& system, const RunState& state, PairRecipe recipe);
-
-/// Recipe of a pair whose cached contacts are valid at the present state.
-[[nodiscard]] PairRecipe kept_recipe(const RunState& state, const PairKey& blocks, const KeptContacts& kept,
-                                     JointLaw law);
 
 /// Remembers the cached contacts that both ranks of a pair have, so that they are sent once.
 class BorderPairs {
@@ -47,9 +31,5 @@ class BorderPairs {
   std::map<PairKey, std::shared_ptr<const ContactCache>> sent_;
   std::map<PairKey, std::shared_ptr<const ContactCache>> received_;
 };
-
-/// Lets re-detected springs hold at most the energy of the last step. With several ranks collective.
-/// @param pairs of contacts, made by this rank or received
-void bound_energies(const BlockSystem& system, const RunState& state, std::vector<ContactPair>& pairs);
 
 }  // namespace ashlar

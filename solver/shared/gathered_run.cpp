@@ -6,6 +6,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
+#include "solver/shared/shared_step.hpp"
 
 namespace ashlar {
 namespace {
@@ -68,7 +69,8 @@ RunTotals totals_here(const Simulation& simulation, const ShownContacts& shown) 
 
 RunTotals totals_of_run(const Simulation& simulation, const ShownContacts& shown) {
   RunTotals here = totals_here(simulation, shown);
-  const BlockShare* share = simulation.system().share();
+  const SharedBlocks* shared = shared_blocks_of(simulation.system());
+  const BlockShare* share = shared == nullptr ? nullptr : shared->share.get();
   if (share == nullptr) return here;
   RunTotals sum;
   for (const RunTotals& one : values_of_ranks(share->ranks(), here)) {
@@ -85,7 +87,8 @@ RunTotals totals_of_run(const Simulation& simulation, const ShownContacts& shown
 }
 
 std::vector<BlockState> states_of_run(const Simulation& simulation, const ResultNeeds& needs) {
-  const BlockShare* share = simulation.system().share();
+  const SharedBlocks* shared = shared_blocks_of(simulation.system());
+  const BlockShare* share = shared == nullptr ? nullptr : shared->share.get();
   std::vector<BlockState> states = simulation.states();
   if (share == nullptr) return states;
   send_to_first(
@@ -107,14 +110,14 @@ std::vector<BlockState> states_of_run(const Simulation& simulation, const Result
 
 std::vector<PairRecord> contacts_of_run(const Simulation& simulation, const ResultNeeds& needs) {
   const BlockSystem& system = simulation.system();
-  if (system.share() == nullptr) return simulation.contacts();
+  if (system.exchange().alone()) return simulation.contacts();
   std::vector<const PairRecord*> own;
   const auto needed = [&](const PairKey& blocks) {
     return needs.all || std::binary_search(needs.pairs.begin(), needs.pairs.end(), blocks);
   };
   for (const PairRecord& record : simulation.contacts())
     if (system.owns_pair(record.a, record.b) && needed({record.a, record.b})) own.push_back(&record);
-  Ranks& ranks = system.share()->ranks();
+  Ranks& ranks = share_of(system).ranks();
   std::vector<PairRecord> all;
   if (ranks.own() == 0)
     for (const PairRecord* record : own) all.push_back(*record);
@@ -143,8 +146,8 @@ std::vector<PairBonds> bonds_of_run(const Simulation& simulation) {
   for (const auto& [blocks, pair] : simulation.histories())
     if ((pair.bonded > 0.0 || pair.broken > 0.0) && system.owns_pair(blocks[0], blocks[1]))
       own.push_back({blocks, pair.bonded, pair.broken});
-  if (system.share() == nullptr) return own;
-  Ranks& ranks = system.share()->ranks();
+  if (system.exchange().alone()) return own;
+  Ranks& ranks = share_of(system).ranks();
   std::vector<PairBonds> all = ranks.own() == 0 ? own : std::vector<PairBonds>();
   send_to_first(
       ranks, [&](ByteWriter& writer) { writer(own); },
@@ -164,8 +167,8 @@ std::map<PairKey, std::vector<char>> points_without_strength_of_run(const Simula
     std::vector<char> lost = simulation.points_without_strength(record);
     if (std::find(lost.begin(), lost.end(), 1) != lost.end()) own[{record.a, record.b}] = std::move(lost);
   }
-  if (system.share() == nullptr) return own;
-  Ranks& ranks = system.share()->ranks();
+  if (system.exchange().alone()) return own;
+  Ranks& ranks = share_of(system).ranks();
   std::map<PairKey, std::vector<char>> all;
   send_to_first(
       ranks, [&](ByteWriter& writer) { writer(own); },
@@ -200,7 +203,8 @@ std::vector<RankWork> work_of_ranks(const Simulation& simulation, const ProcessU
     work.broken_area += pair.broken;
     work.bonded_area += pair.bonded;
   }
-  const BlockShare* share = system.share();
+  const SharedBlocks* shared = shared_blocks_of(system);
+  const BlockShare* share = shared == nullptr ? nullptr : shared->share.get();
   if (share == nullptr) {
     work.own = system.count();
     return {work};

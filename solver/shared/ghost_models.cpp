@@ -5,7 +5,8 @@
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
 #include "solver/ranks/block_share.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/shared/shared_step.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/accept/quiet_release.hpp"
 
 namespace ashlar {
@@ -37,7 +38,7 @@ void apply_change(BlockSystem& system, RunState& state, StepCaches& caches, int 
 
 void update_ghost_models(BlockSystem& system, RunState& state, StepCaches& caches) {
   if (!any_of_run(system, !system.quiet().empty() || system.any_incremental())) return;
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   BlockPartsLibrary library;
   share.exchange(
       [&](ByteWriter& writer, int rank) {
@@ -57,7 +58,7 @@ void update_ghost_models(BlockSystem& system, RunState& state, StepCaches& cache
 
 void send_shapes_to_first(BlockSystem& system, const std::vector<int>* blocks) {
   if (!any_of_run(system, system.any_incremental())) return;
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   send_to_first(
       share.ranks(),
       [&](ByteWriter& writer) {

@@ -12,6 +12,8 @@
 #include "geometry/solid/face_axes.hpp"
 #include "solver/shared/ghost_models.hpp"
 #include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_step.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/step/detect/sleeping_islands.hpp"
 #include "solver/step/step_problem.hpp"
@@ -216,7 +218,7 @@ void change_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, S
     set_block_here(system, state, caches, come[k], std::move(models[k]), true);
   update_ghost_models(system, state, caches);
   hold_sleepers(system, state.sleep);
-  caches.contacts.forget_border_pairs();
+  shared.border.forget();
 }
 
 }  // namespace
@@ -237,7 +239,7 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
   const double reach = max_of_ranks(share.ranks(), reach_of(system.settings(), state));
   const std::vector<int> near = ghosts_of(share, boxes, reach + 2.0 * shared.margin);
   change_ghosts(shared, system, state, caches, with_bolted(system, with_tied(shared, near)));
-  update_ghosts(system, state);
+  tell_states(system, state);
   update_ghost_contacts(system, state);
   for (int k = 0; k < system.count(); ++k) shared.paths[at(k)] = finder.path(k);
 }
@@ -274,6 +276,7 @@ BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader loa
   share.set_ghosts(
       with_tied(shared, ghosts_of(share, boxes, settings.contact_distance + 2.0 * shared.margin)));
   take(keeps_models ? std::vector<int>() : share.ghosts());
+  shared.exchange = std::make_unique<SharedStep>(shared);
   return result;
 }
 
@@ -301,25 +304,15 @@ double farthest_path(const SharedBlocks& shared, const BlockSystem& system, cons
   double farthest = 0.0;
   for (const int k : shared.share->own())
     if (system.moving()[at(k)])
-      farthest = std::max(farthest, finder.path(k) - shared.paths[at(k)] + finder.motion_bound(k, motion(k)));
+      farthest = std::max(farthest, finder.path(k) - shared.paths[at(k)] +
+                                        (motion ? finder.motion_bound(k, motion(k)) : 0.0));
   return farthest;
 }
 
-bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
-                  double farthest) {
-  const double most = max_of_ranks(shared.share->ranks(), farthest);
-  if (most <= shared.margin) return false;
-  shared.margin = margin_for(*shared.share, most);
+void find_ghosts_within(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                        double way) {
+  if (way > 0.0) shared.margin = margin_for(*shared.share, way);
   find_ghosts(shared, system, state, caches);
-  return true;
-}
-
-bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches) {
-  double farthest = 0.0;
-  for (const int k : shared.share->own())
-    if (system.moving()[at(k)])
-      farthest = std::max(farthest, caches.contacts.finder().path(k) - shared.paths[at(k)]);
-  return leave_margin(shared, system, state, caches, farthest);
 }
 
 GhostsThen ghosts_now(const SharedBlocks& shared) {
@@ -334,7 +327,7 @@ void restore_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, 
 }
 
 void update_ghost_contacts(const BlockSystem& system, RunState& state) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   const auto lends = [&](int block, int rank) {
     const std::vector<int>& lent = share.lent_to(rank);
     return share.owns(block) && std::binary_search(lent.begin(), lent.end(), block);
@@ -362,24 +355,13 @@ void update_ghost_contacts(const BlockSystem& system, RunState& state) {
       });
 }
 
-void update_ghosts(const BlockSystem& system, RunState& state) {
-  const BlockShare& share = *system.share();
-  const bool accelerated = !state.accelerations.empty();
-  share.exchange(
-      [&](ByteWriter& writer, int rank) {
-        for (const int block : share.lent_to(rank)) {
-          writer(block, state.states[at(block)]);
-          if (accelerated) writer(state.accelerations[at(block)]);
-        }
-      },
-      [&](ByteReader& reader, int) {
-        while (!reader.at_end()) {
-          int block = -1;
-          reader(block);
-          reader(state.states.at(at(block)));
-          if (accelerated) reader(state.accelerations[at(block)]);
-        }
-      });
+void continue_work(const SharedBlocks& before, SharedBlocks& now) {
+  now.searches += before.searches;
+  now.for_results += before.for_results;
+  now.balance.repartitions += before.balance.repartitions;
+  now.earlier += before.earlier;
+  now.earlier += before.share->solver().work();
+  now.earlier += before.share->step_solver().work();
 }
 
 }  // namespace ashlar

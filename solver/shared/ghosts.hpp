@@ -12,8 +12,10 @@
 #include "mechanics/block/block_model.hpp"
 #include "solver/ranks/block_share.hpp"
 #include "solver/ranks/partition.hpp"
+#include "solver/shared/border_pairs.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
+#include "solver/state/step_exchange.hpp"
 #include "solver/step/step_caches.hpp"
 
 namespace ashlar {
@@ -35,6 +37,8 @@ struct SharedBlocks {
   int searches = 0;                ///< for ghosts, after the first one
   Rebalancing balance = {};
   SharedWork earlier = {};  ///< systems of earlier stages (run/stage_start.hpp)
+  BorderPairs border = {};
+  std::unique_ptr<StepExchange> exchange = {};  ///< not null once share_blocks() has made it
 };
 
 /// The blocks of one rank at the start of a run.
@@ -56,6 +60,9 @@ struct BlocksOfRank {
 /// Removes what a rank knows of the contacts of a pair. Sums over the run and the initial overlap stay.
 void forget_contacts(PairHistory& pair);
 
+/// Counts the work of a rank in the stage before together with that of the present one.
+void continue_work(const SharedBlocks& before, SharedBlocks& now);
+
 /// Makes a block one of those that this rank has, or takes it from them: it forgets the block's contacts. Sums over the
 /// run stay. @param model of the block; of one that is elsewhere any
 void set_block_here(BlockSystem& system, RunState& state, StepCaches& caches, int block, BlockModel model,
@@ -69,19 +76,15 @@ void find_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, Ste
 void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                      double step);
 
-/// Largest path of an own block since ghosts were found, m. @param motion by block: change of its position, (p, 3)
+/// Largest path of an own block since ghosts were found, m. @param motion by block: change of its position, (p, 3);
+/// empty: none
 [[nodiscard]] double farthest_path(const SharedBlocks& shared, const BlockSystem& system,
                                    const ContactFinder& finder,
                                    const std::function<Eigen::MatrixX3d(int block)>& motion);
 
-/// True if a block of any rank has left its margin in a solved step: then ghosts have been found again, with a margin
-/// for this motion, and contacts have to be detected again. Collective. @param farthest farthest_path() of this rank, m
-[[nodiscard]] bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state,
-                                StepCaches& caches, double farthest);
-
-/// True if blocks of any rank have left their margin since ghosts were found; then as above. Collective.
-[[nodiscard]] bool leave_margin(SharedBlocks& shared, BlockSystem& system, RunState& state,
-                                StepCaches& caches);
+/// Finds ghosts again, with a margin for a path of blocks. Collective. @param way m; 0: with the present margin
+void find_ghosts_within(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
+                        double way);
 
 /// Ghosts at some time of a run, to be restored with a snapshot of one rank.
 struct GhostsThen {
@@ -93,9 +96,6 @@ struct GhostsThen {
 /// Restores ghosts, whose states are to be restored then. Collective.
 void restore_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
                     const GhostsThen& then);
-
-/// Gives ghosts the state of their owners. Collective.
-void update_ghosts(const BlockSystem& system, RunState& state);
 
 /// Gives ranks the memory of contacts of their ghosts with other blocks that are not their own: retractions from them
 /// decide which contacts are at internal edges. Normals of closed points and depths suffice. Collective.

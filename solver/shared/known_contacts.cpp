@@ -5,12 +5,13 @@
 
 #include "geometry/index.hpp"
 #include "solver/ranks/block_share.hpp"
+#include "solver/shared/shared_step.hpp"
 
 namespace ashlar {
 
 void drop_unknown_elsewhere(const BlockSystem& system, const std::vector<NearPair>& near,
                             std::vector<std::shared_ptr<const KeptContacts>>& kept) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   std::set<PairKey> unknown;
   share.exchange(
       [&](ByteWriter& writer, int rank) {

@@ -13,6 +13,7 @@
 #include "solver/archived_geometry.hpp"
 #include "solver/ranks/block_share.hpp"
 #include "solver/ranks/rank_messages.hpp"
+#include "solver/shared/shared_step.hpp"
 
 namespace ashlar {
 namespace {
@@ -121,14 +122,14 @@ void require_first(bool& visited) {
 
 /// Null: traffic is not counted.
 std::unique_ptr<CountedTraffic> PairsOfRun::counted_traffic() const {
-  return sent_ == nullptr ? nullptr : std::make_unique<CountedTraffic>(system_.share()->ranks(), *sent_);
+  return sent_ == nullptr ? nullptr : std::make_unique<CountedTraffic>(share_of(system_).ranks(), *sent_);
 }
 
 void PairsOfRun::visit_histories(const Begin& begin,
                                  const std::function<void(const PairKey&, const PairHistory&)>& visit) {
   require_first(histories_visited_);
   const PairHistories& pairs = state_.pairs;
-  if (system_.share() == nullptr) {
+  if (system_.exchange().alone()) {
     begin(pairs.size());
     for (const auto& [blocks, history] : pairs) visit(blocks, history);
     return;
@@ -143,7 +144,7 @@ void PairsOfRun::visit_histories(const Begin& begin,
     return known.memory.empty() && known.work == 0.0;
   };
   send_in_messages(
-      system_.share()->ranks(), visitors_, own, begin,
+      share_of(system_).ranks(), visitors_, own, begin,
       [&](ByteWriter& writer, std::span<const PairKey> keys) {
         for (const PairKey& blocks : keys) writer(blocks, pairs.at(blocks));
       },
@@ -173,7 +174,7 @@ void PairsOfRun::visit_histories(const Begin& begin,
 void PairsOfRun::visit_records(const Begin& begin, const std::function<void(const PairRecord&)>& visit) {
   require_first(records_visited_);
   const std::vector<PairRecord>& records = state_.records;
-  if (system_.share() == nullptr) {
+  if (system_.exchange().alone()) {
     begin(records.size());
     for (const PairRecord& record : records) visit(record);
     return;
@@ -192,7 +193,7 @@ void PairsOfRun::visit_records(const Begin& begin, const std::function<void(cons
   };
   std::vector<PairRecord> others;
   send_in_messages(
-      system_.share()->ranks(), visitors_, own, begin,
+      share_of(system_).ranks(), visitors_, own, begin,
       [&](ByteWriter& writer, std::span<const PairKey> keys) {
         for (const PairKey& key : keys) writer(record_of(key));
       },

@@ -11,6 +11,8 @@
 #include "solver/bolts/bolted_blocks.hpp"
 #include "solver/shared/ghost_models.hpp"
 #include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_step.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 
 namespace ashlar {
 namespace {
@@ -38,7 +40,7 @@ struct MovedPart {
 
 /// Own blocks with their contacts in the last step.
 std::vector<PartitionBlock> blocks_of_rank(const BlockSystem& system, const RunState& state) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   std::map<int, std::map<int, int>> points;  // of moving blocks
   const auto moves = [&](int block) { return system.here(block) && !system.blocks()[at(block)].fixed(); };
   std::map<int, int> all;
@@ -97,7 +99,7 @@ std::vector<double> weights_with(Ranks& ranks, const std::vector<PartitionBlock>
 /// Messages to new owners, by rank.
 std::vector<MovedPart> parts_to_send(const BlockSystem& system, const RunState& state,
                                      const FinderState& finder, const std::vector<int>& owners) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   std::vector<MovedPart> parts(at(share.ranks().count()));
   for (const int k : share.own()) {
     if (owners[at(k)] == share.owner(k)) continue;

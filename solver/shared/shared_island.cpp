@@ -8,9 +8,10 @@
 #include "geometry/index.hpp"
 #include "geometry/union_find.hpp"
 #include "mechanics/block/rigid_body.hpp"
-#include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_island_sums.hpp"
+#include "solver/shared/shared_step.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 #include "solver/step/island/island_links.hpp"
-#include "solver/step/solve/open_close.hpp"
 
 namespace ashlar {
 namespace {
@@ -30,8 +31,8 @@ Eigen::MatrixXd rigid_motions(const BodyStep& body) {
 class SharedIslandSolver final : public LinearSolver {
  public:
   SharedIslandSolver(RankSolver& solver, const Island& island, const std::vector<BodyStep>& bodies,
-                     std::vector<int> starts, const IslandRanks& ranks)
-      : solver_(solver), island_(island), bodies_(bodies), starts_(std::move(starts)), ranks_(ranks) {}
+                     std::vector<int> starts, const IslandSums& sums)
+      : solver_(solver), island_(island), bodies_(bodies), starts_(std::move(starts)), sums_(sums) {}
 
   [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix) override {
     return solver_.factorize(rows_of(matrix));
@@ -42,7 +43,7 @@ class SharedIslandSolver final : public LinearSolver {
     const auto each_own = [&](const auto& visit) {
       next = 0;
       for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
-        if (!ranks_.owns_body(k)) continue;
+        if (!sums_.owns_body(k)) continue;
         const int size = starts_[k + 1] - starts_[k];
         visit(starts_[k], next, size);
         next += size;
@@ -56,7 +57,7 @@ class SharedIslandSolver final : public LinearSolver {
     each_own([&](Eigen::Index start, Eigen::Index place, Eigen::Index size) {
       found.segment(start, size) = own.segment(place, size);
     });
-    ranks_.update_ghosts(found);
+    sums_.update_neighbours(found);
     return found;
   }
   [[nodiscard]] const FactorCounts& counts() const override { return solver_.counts(); }
@@ -69,7 +70,7 @@ class SharedIslandSolver final : public LinearSolver {
   [[nodiscard]] Eigen::Index own_size() const {
     Eigen::Index size = 0;
     for (std::size_t k = 0; k < island_.bodies.size(); ++k)
-      if (ranks_.owns_body(k)) size += starts_[k + 1] - starts_[k];
+      if (sums_.owns_body(k)) size += starts_[k + 1] - starts_[k];
     return size;
   }
 
@@ -97,8 +98,8 @@ class SharedIslandSolver final : public LinearSolver {
         const int first = matrix.rows[at(k)] - starts_[at(i)];
         size = starts_[at(i) + 1] - starts_[at(i)] - first;
         const Eigen::Map<const Eigen::VectorXd> values(matrix.values.data() + k, size);
-        if (ranks_.owns_body(at(i))) block(i, j).col(in_body).segment(first, size) = values;
-        if (ranks_.owns_body(at(j))) block(j, i).row(in_body).segment(first, size) = values.transpose();
+        if (sums_.owns_body(at(i))) block(i, j).col(in_body).segment(first, size) = values;
+        if (sums_.owns_body(at(j))) block(j, i).row(in_body).segment(first, size) = values.transpose();
       }
     }
     return blocks;
@@ -109,7 +110,7 @@ class SharedIslandSolver final : public LinearSolver {
     std::vector<BodyRows> rows;
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       // Moving supports may leave a body no unknowns.
-      if (!ranks_.owns_body(k) || starts_[k] == starts_[k + 1]) continue;
+      if (!sums_.owns_body(k) || starts_[k] == starts_[k + 1]) continue;
       BodyRows& of_body = rows.emplace_back();
       of_body.body = island_.bodies[k];
       for (auto& [column, values] : blocks[k]) {
@@ -125,14 +126,14 @@ class SharedIslandSolver final : public LinearSolver {
   const Island& island_;
   const std::vector<BodyStep>& bodies_;
   std::vector<int> starts_;
-  const IslandRanks& ranks_;
+  const IslandSums& sums_;
   SymmetricMatrix none_;
 };
 
 }  // namespace
 
 int join_shared_islands(const BlockSystem& system, std::vector<Island>& islands) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   Island joined;
   std::vector<Island> others;
   for (Island& island : islands) {
@@ -158,7 +159,7 @@ int join_shared_islands(const BlockSystem& system, std::vector<Island>& islands)
 
 std::map<int, int> first_blocks(const BlockSystem& system, const Island& island,
                                 const std::vector<ContactPair>& pairs) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   UnionFind touching(at(system.count()));
   for (const int index : island.pairs) {
     const ContactPair& pair = pairs[at(index)];
@@ -195,7 +196,7 @@ SharedIslandSystem::SharedIslandSystem(const BlockSystem& system, const Island& 
                                        const std::vector<BodyStep>& bodies,
                                        const std::vector<ContactPair>& pairs, SharedFactor* kept)
     : kept_(kept) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   std::map<int, int> place;
   std::vector<int> sizes, starts = {0};
   SharedFactor own;
@@ -211,11 +212,11 @@ SharedIslandSystem::SharedIslandSystem(const BlockSystem& system, const Island& 
   for (const int index : island.pairs)
     owns_pair.push_back(system.owns_pair(pairs[at(index)].a(), pairs[at(index)].b()));
   const std::vector<std::array<int, 2>> links = links_of(island, pairs, place);
-  ranks_ = std::make_unique<const IslandRanks>(share, island.bodies, starts, std::move(owns_pair));
+  sums_ = std::make_unique<const SharedIslandSums>(share, island.bodies, starts, std::move(owns_pair));
   RankSolver& solver = kept_ == nullptr ? share.solver() : share.step_solver();
   solver_ = std::make_unique<IslandSolvers::Entry>(
       IslandSolvers::Entry{sizes, links, BlockMatrix(sizes, links),
-                           std::make_unique<SharedIslandSolver>(solver, island, bodies, starts, *ranks_)});
+                           std::make_unique<SharedIslandSolver>(solver, island, bodies, starts, *sums_)});
   if (kept_ == nullptr) return;
   const bool others = own.bodies != kept_->bodies || own.sizes != kept_->sizes;
   if (!any_rank(share.ranks(), others)) solver_->inertia = kept_->inertia;
@@ -224,24 +225,6 @@ SharedIslandSystem::SharedIslandSystem(const BlockSystem& system, const Island& 
 
 SharedIslandSystem::~SharedIslandSystem() {
   if (kept_ != nullptr) kept_->inertia = solver_->inertia;
-}
-
-IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
-                                 std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-                                 const TimeScheme& scheme, const SimulationSettings& settings,
-                                 SharedFactor* kept) {
-  SharedIslandSystem linear(system, island, bodies, pairs, kept);
-  IslandResult result;
-  IslandProblem problem(island, bodies, pairs, scheme, settings, linear.solver(), linear.ranks());
-  iterate_open_close(problem, result);
-  if (system.share()->ranks().own() != 0) result.iterations = result.fallbacks = 0;
-  return result;
-}
-
-void update_ghost_changes(const BlockSystem& system, std::vector<BodyStep>& bodies) {
-  system.share()->to_ghosts(
-      [&](int block) { return system.moving()[at(block)] ? &bodies[at(block)].change : nullptr; },
-      [&](int block, Eigen::VectorXd change) { bodies[at(block)].change = std::move(change); });
 }
 
 }  // namespace ashlar

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "solver/linear/linear_solver.hpp"
-#include "solver/shared/island_ranks.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/step/island/factor_cache.hpp"
 #include "solver/step/island/island.hpp"
+#include "solver/step/island/joined_system.hpp"
 
 namespace ashlar {
 
@@ -24,36 +24,24 @@ namespace ashlar {
                                               const std::vector<ContactPair>& pairs);
 
 /// The linear system of the joined island.
-class SharedIslandSystem {
+class SharedIslandSystem final : public JoinedSystem {
  public:
   /// All but the scheme and the settings of IslandProblem. The arguments must outlive this. Collective.
   /// @param kept null: solved by BlockShare::solver(). Otherwise by step_solver(), with the factor that it holds of the
   /// same bodies, whatever their pairs; the next one finds there the factor that this leaves
   SharedIslandSystem(const BlockSystem& system, const Island& island, const std::vector<BodyStep>& bodies,
                      const std::vector<ContactPair>& pairs, SharedFactor* kept = nullptr);
-  ~SharedIslandSystem();
+  ~SharedIslandSystem() override;
   SharedIslandSystem(const SharedIslandSystem&) = delete;
   SharedIslandSystem& operator=(const SharedIslandSystem&) = delete;
 
-  [[nodiscard]] const IslandRanks& ranks() const { return *ranks_; }
-  [[nodiscard]] IslandSolvers::Entry& solver() { return *solver_; }
+  [[nodiscard]] const IslandSums& sums() const override { return *sums_; }
+  [[nodiscard]] IslandSolvers::Entry& solver() override { return *solver_; }
 
  private:
-  std::unique_ptr<const IslandRanks> ranks_;
+  std::unique_ptr<const IslandSums> sums_;
   std::unique_ptr<IslandSolvers::Entry> solver_;
   SharedFactor* kept_;
 };
-
-/// Solves the joined island, or a part of it. Collective; the status is the same on all ranks. The first one counts
-/// iterations, the others none.
-/// @param settings the same on all ranks. @param kept as of SharedIslandSystem
-[[nodiscard]] IslandResult solve_shared_island(const BlockSystem& system, const Island& island,
-                                               std::vector<BodyStep>& bodies,
-                                               const std::vector<ContactPair>& pairs,
-                                               const TimeScheme& scheme, const SimulationSettings& settings,
-                                               SharedFactor* kept = nullptr);
-
-/// Gives moving ghosts the changes of their owners. Collective.
-void update_ghost_changes(const BlockSystem& system, std::vector<BodyStep>& bodies);
 
 }  // namespace ashlar

@@ -9,6 +9,8 @@
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
 #include "solver/shared/shared_bolts.hpp"
+#include "solver/shared/shared_step.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 
 namespace ashlar {
 namespace {
@@ -50,10 +52,10 @@ void take_block(const SimulationSnapshot& from, int place, SimulationSnapshot& t
 /// Fixed blocks of the run, by block. Collective.
 std::vector<bool> fixed_blocks(const BlockSystem& system) {
   std::vector<int> own;
-  for (const int k : system.share()->own())
+  for (const int k : share_of(system).own())
     if (system.blocks()[at(k)].fixed()) own.push_back(k);
   std::vector<bool> fixed(at(system.count()), false);
-  for (const std::vector<int>& of_rank : values_of_ranks(system.share()->ranks(), own))
+  for (const std::vector<int>& of_rank : values_of_ranks(share_of(system).ranks(), own))
     for (const int k : of_rank) fixed[at(k)] = true;
   return fixed;
 }
@@ -144,7 +146,7 @@ SimulationSnapshot part_without_pairs(const BlockSystem& system, const RunState&
 
 SimulationSnapshot whole_without_pairs(const BlockSystem& system, SimulationSnapshot part,
                                        const RunTotals* totals) {
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   keep_own(system, part.run);
   keep_changes(part, [&](int block) { return system.owns(block); });
   part.factors.clear();

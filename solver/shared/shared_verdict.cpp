@@ -6,7 +6,8 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/shared/shared_step.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/statics/motion_doubt.hpp"
 #include "solver/statics/rigid_verdict.hpp"
 
@@ -40,8 +41,8 @@ WholeRun whole_run(const RunContext& run, const std::vector<TieOfRank>& ties) {
   const BlockSystem& system = run.system;
   std::vector<BlockModel> blocks;
   for (int k = 0; k < system.count(); ++k) {
-    const bool known = run.shared->keeps_models || system.here(k) || !system.present(k);
-    blocks.push_back(known ? system.blocks()[at(k)] : run.shared->load(k));
+    const bool known = shared_blocks_of(run.system)->keeps_models || system.here(k) || !system.present(k);
+    blocks.push_back(known ? system.blocks()[at(k)] : shared_blocks_of(run.system)->load(k));
   }
   std::vector<TieRequest> requests;
   for (const TieOfRank& tie : ties) requests.push_back({tie.a, tie.b, tie.stiffness});
@@ -99,7 +100,7 @@ void take_equilibrium(const BlockSystem& system, const ToldVerdict& told, double
 
 StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus status) {
   const BlockSystem& system = run.system;
-  const BlockShare& share = *system.share();
+  const BlockShare& share = share_of(system);
   Ranks& ranks = share.ranks();
   // The verdict has no bolts. All ranks know which are installed.
   const std::vector<BoltState>& bolts = run.state.bolts;
@@ -155,7 +156,7 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
 StaticStatus judged(const RunContext& run, double end_time, StaticStatus status) {
   // Where many iterations are needed blocks often move, which rigid blocks tell in less time than the remaining ones.
   constexpr int asked_after = 16;
-  const bool several = run.shared != nullptr && !run.system.share()->ranks().alone();
+  const bool several = !run.system.exchange().alone();
   if (status == StaticStatus::balancing)
     return run.state.statics.iterations != asked_after ? status
            : several                                   ? shared_verdict(run, end_time, status)

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/free_bodies.hpp"
 
@@ -42,23 +42,21 @@ Eigen::MatrixXd gradients_at(const BlockModel& block, const std::vector<Vector3>
 }  // namespace
 
 BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
-                         const std::vector<TieRequest>& ties, std::vector<bool> absent, BlockShare* share)
+                         const std::vector<TieRequest>& ties, std::vector<bool> absent,
+                         StepExchange& exchange)
     : blocks_(std::move(blocks)),
       absent_(std::move(absent)),
-      share_(share),
+      exchange_(&exchange),
       law_(std::move(law)),
       settings_(settings) {
   absent_.resize(blocks_.size(), false);
   away_ = absent_;
-  for (int k = 0; share_ != nullptr && k < count(); ++k)
-    away_[at(k)] = absent_[at(k)] || !(share_->owns(k) || share_->is_ghost(k));
+  for (int k = 0; k < count(); ++k) away_[at(k)] = absent_[at(k)] || !exchange_->knows(k);
   let_go();
   for (int k = 0; k < count(); ++k)
     if (moving_[at(k)] && blocks_[at(k)].quiet()) quiet_.push_back(k);
   // The surface of an incremental block consists of its sub-faces.
-  const bool incremental = any_incremental();
-  if (share_ == nullptr ? incremental : any_rank(share_->ranks(), incremental))
-    settings_.curved_surface = false;
+  if (any_of_run(*this, any_incremental())) settings_.curved_surface = false;
   const bool any_rigid =
       std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.rigid(); });
   if (any_rigid && settings_.integrator == Integrator::generalized_alpha)
@@ -68,19 +66,15 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   asked_gradients_.resize(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
   std::vector<PairKey> tied;
-  const auto make = [&] { tied = make_ties(ties); };
-  if (share_ == nullptr)
-    make();
-  else
-    do_on_all(share_->ranks(), make);
+  exchange_->on_all([&] { tied = make_ties(ties); });
   find_free_bodies(tied);
 }
 
 std::vector<PairKey> BlockSystem::make_ties(const std::vector<TieRequest>& ties) {
   std::vector<PairKey> tied;
   for (const auto& [a, b, stiffness] : ties) {
-    // Ghosts may come later.
-    if (share_ != nullptr) left_out_.insert({a, b});
+    // Neighbours may come later.
+    if (!exchange_->alone()) left_out_.insert({a, b});
     if (!here(a) || !here(b) || !concerns(a, b)) continue;
     const BlockModel& block_a = blocks_[at(a)];
     const BlockModel& block_b = blocks_[at(b)];
@@ -96,44 +90,44 @@ std::vector<PairKey> BlockSystem::make_ties(const std::vector<TieRequest>& ties)
 }
 
 void BlockSystem::find_free_bodies(const std::vector<PairKey>& tied) {
-  if (share_ == nullptr || share_->ranks().alone()) {
+  if (exchange_->alone()) {
     free_bodies_ = ashlar::free_bodies(blocks_, tied);
     std::erase_if(free_bodies_, [this](const std::vector<int>& body) { return !present(body.front()); });
     return;
   }
-  std::vector<PairKey> all_tied;
-  for (const std::vector<PairKey>& of_rank : values_of_ranks(share_->ranks(), tied))
-    all_tied.insert(all_tied.end(), of_rank.begin(), of_rank.end());
   std::vector<int> held;
-  for (const int k : share_->own())
-    if (!present(k) || !may_turn_freely(blocks_[at(k)])) held.push_back(k);
+  for (int k = 0; k < count(); ++k)
+    if (owns(k) && (!present(k) || !may_turn_freely(blocks_[at(k)]))) held.push_back(k);
+  const std::vector<PairKey> all_tied = joined_of_run(*this, tied);
   std::vector<bool> free(blocks_.size(), true);
-  for (const std::vector<int>& of_rank : values_of_ranks(share_->ranks(), held))
-    for (const int k : of_rank) free[at(k)] = false;
-  std::vector<std::vector<int>> shared;
-  for (std::vector<int>& body : ashlar::free_bodies(free, all_tied)) {
-    const auto is_own = [this](int block) { return owns(block); };
-    const int rank = share_->owner(body.front());
-    if (std::any_of(body.begin(), body.end(), [&](int block) { return share_->owner(block) != rank; }))
-      shared.push_back(body);
-    if (std::any_of(body.begin(), body.end(), is_own)) free_bodies_.push_back(std::move(body));
+  for (const int k : joined_of_run(*this, held)) free[at(k)] = false;
+  std::vector<std::vector<int>> bodies = ashlar::free_bodies(free, all_tied);
+  const auto own = [this](const std::vector<int>& body) {
+    return static_cast<std::size_t>(
+        std::count_if(body.begin(), body.end(), [this](int block) { return owns(block); }));
+  };
+  std::vector<bool> parted;
+  for (const std::vector<int>& body : bodies) parted.push_back(own(body) > 0 && own(body) < body.size());
+  parted = any_of_run(*this, parted);
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    if (parted[n]) parted_bodies_.push_back(bodies[n]);
+    if (own(bodies[n]) > 0) free_bodies_.push_back(std::move(bodies[n]));
   }
-  share_->set_shared_bodies(std::move(shared));
 }
 
 bool BlockSystem::owns(int block) const {
-  return share_ == nullptr || share_->owns(block);
+  return exchange_->owns(block);
 }
 
 bool BlockSystem::owns_pair(int a, int b) const {
-  if (share_ == nullptr) return true;
+  if (exchange_->alone()) return true;
   if (blocks_[at(a)].fixed()) return owns(b);
   if (blocks_[at(b)].fixed()) return owns(a);
   return owns(std::min(a, b));
 }
 
 bool BlockSystem::concerns(int a, int b) const {
-  if (share_ == nullptr) return true;
+  if (exchange_->alone()) return true;
   return (owns(a) && !blocks_[at(a)].fixed()) || (owns(b) && !blocks_[at(b)].fixed());
 }
 

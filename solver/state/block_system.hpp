@@ -18,7 +18,10 @@
 
 namespace ashlar {
 
-class BlockShare;  // ranks/block_share.hpp
+class StepExchange;  // step_exchange.hpp
+
+/// The exchange of a run of one process.
+[[nodiscard]] StepExchange& no_exchange();
 
 /// Two blocks to be bonded over their common faces.
 struct TieRequest {
@@ -43,27 +46,25 @@ class BlockSystem {
   /// @param law joint law of each pair (a < b). @param ties a pair without a common face is not tied, but its
   /// contacts are excluded all the same. @param absent by block, or empty: absent blocks keep their numbers, but have
   /// no motion, contact, weight or energy
-  /// @param share of the blocks among ranks, must outlive this; null: one rank has all of them. Blocks that are neither
-  /// own nor ghosts of this rank are elsewhere: like absent ones here
-  /// With several ranks collective; blocks tied to own ones are ghosts then (share_blocks in shared/ghosts.hpp).
+  /// @param exchange with other processes that share the blocks, must outlive this. Blocks that are neither own nor
+  /// neighbours are elsewhere: like absent ones here. Collective; blocks tied to own ones are neighbours.
   /// @throws std::invalid_argument if a tied block is incremental
   BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
               const std::vector<TieRequest>& ties, std::vector<bool> absent = {},
-              BlockShare* share = nullptr);
+              StepExchange& exchange = no_exchange());
 
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()); }
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
   [[nodiscard]] bool present(int block) const { return !absent_[static_cast<std::size_t>(block)]; }
   [[nodiscard]] const std::vector<bool>& absent() const { return absent_; }
-  /// Present blocks that this rank has, own or ghosts; without ranks all present blocks.
+  /// Present blocks that this process has, own or neighbours; without others all present blocks.
   [[nodiscard]] bool here(int block) const { return !away_[static_cast<std::size_t>(block)]; }
   /// Absent blocks and those elsewhere.
   [[nodiscard]] const std::vector<bool>& away() const { return away_; }
-  /// Null: one rank has all blocks.
-  [[nodiscard]] BlockShare* share() const { return share_; }
-  /// True if this rank computes the motion of a block.
+  [[nodiscard]] StepExchange& exchange() const { return *exchange_; }
+  /// True if this process computes the motion of a block.
   [[nodiscard]] bool owns(int block) const;
-  /// True if this rank makes the contacts of two blocks and accounts for their energy: the owner of the lower block, of
+  /// True if this process makes the contacts of two blocks and accounts for their energy: the owner of the lower block, of
   /// the only one if the other is fixed.
   [[nodiscard]] bool owns_pair(int a, int b) const;
   /// True if one of two blocks is own and not fixed.
@@ -82,9 +83,11 @@ class BlockSystem {
   [[nodiscard]] bool are_tied(int a, int b) const;
   /// Pairs without contact search, the lower block first.
   [[nodiscard]] const std::set<PairKey>& left_out() const { return left_out_; }
-  /// Sets of blocks that rotate together and are supported by contacts only (free_bodies.hpp); of several ranks those with
-  /// own blocks, see BlockShare::shared_bodies().
+  /// Sets of blocks that rotate together and are supported by contacts only (free_bodies.hpp); of several processes
+  /// those with own blocks.
   [[nodiscard]] const std::vector<std::vector<int>>& free_bodies() const { return free_bodies_; }
+  /// Free bodies with blocks of several processes, the same on all.
+  [[nodiscard]] const std::vector<std::vector<int>>& parted_bodies() const { return parted_bodies_; }
   /// Size of the rounding errors of a block's internal force, N m^-3/2.
   [[nodiscard]] double roundoff_force(int block) const;
   /// Gradients of a block's functions at the places checked for inversion, (3 #places, p); null: fixed or incremental
@@ -109,7 +112,7 @@ class BlockSystem {
   void set_time_step(double step) { settings_.time_step = step; }
   /// @param tolerance of SearchSettings, m, > 0
   void set_chord_tolerance(double tolerance) { settings_.search.chord_tolerance = tolerance; }
-  /// Makes a present block of another rank a ghost, or no ghost any more.
+  /// Makes a present block of another process a neighbour, or none any more.
   /// @param model of the block; of one elsewhere any
   void set_here(int block, BlockModel model, bool here);
   /// Replaces the model of an incremental block by that of its next step.
@@ -127,15 +130,15 @@ class BlockSystem {
 
  private:
   void note_gradients(std::size_t block);
-  /// @return pairs of tied blocks that this rank owns
+  /// @return pairs of tied blocks that this process owns
   std::vector<PairKey> make_ties(const std::vector<TieRequest>& ties);
-  /// @param tied pairs of this rank
+  /// @param tied pairs of this process
   void find_free_bodies(const std::vector<PairKey>& tied);
 
   std::vector<BlockModel> blocks_;
   std::vector<bool> absent_;
   std::vector<bool> away_;
-  BlockShare* share_;
+  StepExchange* exchange_;  ///< not null
   std::vector<bool> moving_;
   std::set<int> loose_;     ///< blocks of hold_loose()
   std::vector<int> quiet_;  ///< increasing
@@ -145,6 +148,7 @@ class BlockSystem {
   std::vector<Bolt> bolts_;
   std::set<PairKey> left_out_;
   std::vector<std::vector<int>> free_bodies_;
+  std::vector<std::vector<int>> parted_bodies_;
   std::vector<double> roundoff_force_;
   std::vector<std::shared_ptr<const Eigen::MatrixXd>> asked_gradients_;  ///< shared by equal blocks
 };

@@ -16,7 +16,7 @@ namespace ashlar {
 
 /// True if a block may be part of such a set.
 [[nodiscard]] bool may_turn_freely(const BlockModel& block);
-/// The same sets. @param free by block: may_turn_freely(), for ranks that do not have all models
+/// The same sets. @param free by block: may_turn_freely(), for processes that do not have all models
 [[nodiscard]] std::vector<std::vector<int>> free_bodies(const std::vector<bool>& free,
                                                         const std::vector<PairKey>& ties);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
+#include "solver/state/agreement.hpp"
 
 namespace ashlar {
 
@@ -62,7 +62,7 @@ void LedgerKeeper::close_step(const BlockSystem& system, const std::vector<Block
                               ledger_.contact,
                               ledger_.friction,
                               ledger_.applied};
-  if (system.share() != nullptr) sums = sum_of_ranks(system.share()->ranks(), sums);
+  sums = sum_of_run(system, sums);
   largest_step_residual_ = std::max(largest_step_residual_, std::abs(sums[0]));
   largest_energy_ =
       std::max({largest_energy_, sums[1], sums[2], sums[3], std::abs(sums[4]), std::abs(sums[5])});

@@ -115,7 +115,7 @@ struct DilatingSlip {
   [[nodiscard]] double flown_share() const { return all > 0.0 ? in_flight / all : 0.0; }
 };
 
-/// Impacts solved so far (impact.hpp). All ranks solve all of them.
+/// Impacts solved so far (impact.hpp). All processes solve all of them.
 struct ImpactTally {
   std::uint64_t count = 0;
   std::uint64_t inaccurate = 0;  ///< whose residual exceeds impact_accuracy

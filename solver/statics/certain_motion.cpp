@@ -6,11 +6,10 @@
 #include <map>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/shared_bolts.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 
 namespace ashlar {
 namespace {
@@ -41,11 +40,11 @@ class MotionExtrapolation {
       goes_[k] = system.owns(static_cast<int>(k)) && !held[k] && residual_is_constant(k);
     }
     exclude_bolted();
-    if (system.share() != nullptr && any_of_run(system, any())) goes_ = any_of_run(system, goes_);
+    if (any_of_run(system, any())) goes_ = any_of_run(system, goes_);
     stopped_.assign(goes_.size(), false);
   }
 
-  /// The same on all ranks.
+  /// The same on all processes.
   [[nodiscard]] bool any() const { return std::find(goes_.begin(), goes_.end(), true) != goes_.end(); }
 
   /// Excludes blocks that others would stop, and then those stopped by the excluded ones.
@@ -62,10 +61,10 @@ class MotionExtrapolation {
     }
   }
 
-  /// Largest path of a block of this rank on the way, m.
-  [[nodiscard]] double farthest(const SharedBlocks& shared, const ContactFinder& finder) const {
+  /// As StepExchange::way_beyond. Collective.
+  [[nodiscard]] double way_beyond(const ContactFinder& finder) const {
     const double share = path_factor();
-    return farthest_path(shared, system_, finder, [&](int block) {
+    return system_.exchange().way_beyond(system_, finder, [&](int block) {
       return Eigen::MatrixX3d((goes(block) ? share : 1.0) * problem_.bodies[at(block)].motion());
     });
   }
@@ -101,7 +100,7 @@ class MotionExtrapolation {
     if (system_.bolts().empty()) return;
     std::map<int, int> first;  // of the joined island
     if (problem_.shared >= 0)
-      first = first_blocks(system_, problem_.islands[at(problem_.shared)], problem_.pairs);
+      first = system_.exchange().first_blocks(system_, problem_.islands[at(problem_.shared)], problem_.pairs);
     const auto name_of = [&](std::size_t island, int block) {
       return static_cast<int>(island) == problem_.shared ? first.at(block)
                                                          : problem_.islands[island].bodies.front();
@@ -124,9 +123,9 @@ class MotionExtrapolation {
     }
   }
 
-  /// Excludes the blocks that any rank has excluded. @return true if nothing was excluded on any
+  /// Excludes the blocks that any process has excluded. @return true if nothing was excluded on any
   bool agree(bool none) {
-    if (system_.share() == nullptr) return none;
+    if (system_.exchange().alone()) return none;
     if (all_of_run(system_, none)) return true;
     stopped_ = any_of_run(system_, stopped_);
     for (std::size_t k = 0; k < goes_.size(); ++k) goes_[k] = goes_[k] && !stopped_[k];
@@ -179,8 +178,8 @@ class MotionExtrapolation {
   RunState& state_;  ///< its log counts the work
   const StepProblem& problem_;
   double far_;
-  std::vector<bool> goes_;     ///< by block, the same on all ranks
-  std::vector<bool> stopped_;  ///< by block: excluded by this rank
+  std::vector<bool> goes_;     ///< by block, the same on all processes
+  std::vector<bool> stopped_;  ///< by block: excluded by this process
   std::vector<double>
       displacements_;  ///< displacements in the iteration, in block sizes; 0 of blocks elsewhere
 };
@@ -188,13 +187,12 @@ class MotionExtrapolation {
 }  // namespace
 
 FollowedMotion follow_motion(const BlockSystem& system, RunState& state, StepContacts& contacts,
-                             const StepProblem& problem, double far, const SharedBlocks* shared) {
+                             const StepProblem& problem, double far) {
   MotionExtrapolation path(system, state, problem, far);
   do {
     path.exclude_stopped();
-    if (shared != nullptr && path.any()) {
-      const double farthest = most_of_run(system, path.farthest(*shared, contacts.finder()));
-      if (farthest > shared->margin) return {{}, {}, farthest};
+    if (path.any()) {
+      if (const double way = path.way_beyond(contacts.finder()); way > 0.0) return {{}, {}, way};
     }
   } while (path.any() && path.exclude_passing(contacts));
   // The contact finder keeps the motion that it has checked last.

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "solver/contact/contact_finder.hpp"
-#include "solver/shared/ghosts.hpp"
 #include "solver/step/detect/step_contacts.hpp"
 #include "solver/step/step_problem.hpp"
 
@@ -19,19 +18,19 @@ struct CertainMotion {
 /// Motion of an iteration, followed to its end and beyond.
 struct FollowedMotion {
   CertainMotion certain;
-  std::vector<PassingBlocks> passing;  ///< StepContacts::check_motion of the iteration, of pairs of this rank
-  /// m, largest path of a block of any rank on its way, if blocks that this rank does not know may be there: nothing
-  /// else is set then, ghosts are needed. 0: all blocks on the way are known
+  std::vector<PassingBlocks>
+      passing;  ///< StepContacts::check_motion of the iteration, of pairs of this process
+  /// m, largest path of a block of any process on its way, if blocks that its process does not know may be there: nothing
+  /// else is set then, neighbours have to be found. 0: all blocks on the way are known
   double beyond = 0.0;
 };
 
 /// Extrapolates an iteration: of the blocks with constant residual, those without obstacle until one of them has gone
 /// `far` are certain to move. Checks the motion of the iteration itself, which is the last motion checked.
-/// With ranks collective.
-/// @param problem as solved, not accepted. @param far in block sizes, > 0. @param shared null: one rank has all blocks
+/// With other processes collective.
+/// @param problem as solved, not accepted. @param far in block sizes, > 0.
 [[nodiscard]] FollowedMotion follow_motion(const BlockSystem& system, RunState& state, StepContacts& contacts,
-                                           const StepProblem& problem, double far,
-                                           const SharedBlocks* shared = nullptr);
+                                           const StepProblem& problem, double far);
 
 /// Marks the analysis as moving if motion is certain, with displacements at the end of the path.
 void note_certain_motion(StaticState& statics, const CertainMotion& motion);

@@ -6,16 +6,16 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/shared_bolts.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
+#include "solver/step/island/island.hpp"
 
 namespace ashlar {
 namespace {
 
 /// Blocks in contact with each other.
 struct TouchingBlocks {
-  std::vector<int> blocks;  ///< of one rank, or of all
+  std::vector<int> blocks;  ///< of one process, or of all
   bool held = false;        ///< by a support, or a contact with a supported block
 };
 
@@ -23,14 +23,14 @@ bool is_support(const BlockModel& block) {
   return block.fixed() || block.supported();
 }
 
-/// Of blocks of this rank, by the lowest of them on all ranks. With ranks collective.
+/// Of blocks of this process, by the lowest of them on all processes. With other processes collective.
 std::map<int, TouchingBlocks> touching_blocks(const BlockSystem& system, const RunState& state,
                                               const std::vector<ContactPair>& pairs) {
   const std::vector<StepBolt> bolts = bolts_of_step(system, state);
   std::vector<Island> islands = find_islands(system.moving(), pairs, bolts);
-  const int shared = system.share() == nullptr ? -1 : join_shared_islands(system, islands);
+  const int shared = system.exchange().join_islands(system, islands);
   std::map<int, int> first;
-  if (shared >= 0) first = first_blocks(system, islands[at(shared)], pairs);
+  if (shared >= 0) first = system.exchange().first_blocks(system, islands[at(shared)], pairs);
   std::map<int, TouchingBlocks> touching;
   for (std::size_t n = 0; n < islands.size(); ++n) {
     const Island& island = islands[n];
@@ -61,11 +61,11 @@ std::vector<std::vector<int>> loose_blocks(const BlockSystem& system, RunState& 
   const std::vector<ContactPair> pairs =
       contacts.pairs(system, state, contacts.detect(system, state, 0.0), PairUse::statics);
   std::map<int, TouchingBlocks> touching = touching_blocks(system, state, pairs);
-  if (system.share() != nullptr) {
-    const auto of_ranks = values_of_ranks(system.share()->ranks(), touching);
+  if (!system.exchange().alone()) {
+    const auto of_processes = values_of_run(system, touching);
     touching.clear();
-    for (const std::map<int, TouchingBlocks>& of_rank : of_ranks) {
-      for (const auto& [first, part] : of_rank) {
+    for (const std::map<int, TouchingBlocks>& of_process : of_processes) {
+      for (const auto& [first, part] : of_process) {
         TouchingBlocks& all = touching[first];
         all.blocks.insert(all.blocks.end(), part.blocks.begin(), part.blocks.end());
         all.held = all.held || part.held;

@@ -10,8 +10,8 @@
 namespace ashlar {
 
 /// Sets of blocks in contact with each other that no fixed block, contact or support restrains, including single
-/// blocks whose supports allow any rigid motion. Each in order, and sets by their lowest block. With ranks collective:
-/// the sets of all ranks, the same on each.
+/// blocks whose supports allow any rigid motion. Each in order, and sets by their lowest block. With other processes collective:
+/// the sets of all processes, the same on each.
 [[nodiscard]] std::vector<std::vector<int>> loose_blocks(const BlockSystem& system, RunState& state,
                                                          StepContacts& contacts);
 

@@ -6,7 +6,7 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/basis/field_moments.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/statics/static_verdict.hpp"
 
 namespace ashlar {
@@ -62,7 +62,7 @@ MotionDoubt doubt_of_motion(const BlockSystem& system, const RunState& state) {
     fastest = std::max(fastest, mean_motion(model, state.statics.onset.unbalanced[at(block.block)]));
     by_forces = std::max(by_forces, system.settings().largest_gravity());
   }
-  // A contact of a block that goes may belong to another rank.
+  // A contact of a block that goes may belong to another process.
   goes = any_of_run(system, goes);
   if (std::none_of(goes.begin(), goes.end(), [](bool of_block) { return of_block; }))
     return MotionDoubt::none;

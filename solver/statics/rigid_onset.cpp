@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/static_verdict.hpp"
+#include "solver/step/solve/joined_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -36,11 +36,11 @@ bool is_rigid(const Island& island, const std::vector<ContactPair>& pairs) {
                      [&](int index) { return pairs[at(index)].rigid(); });
 }
 
-/// The bodies of an island on this rank, and decisions and sums over all of its bodies. Collective for the island that
-/// ranks share.
-class IslandOfRanks {
+/// The bodies of an island on this process, and decisions and sums over all of its bodies. Collective for the island that
+/// processes share.
+class PartOfIsland {
  public:
-  IslandOfRanks(const BlockSystem& system, const StepProblem& problem, std::size_t index)
+  PartOfIsland(const BlockSystem& system, const StepProblem& problem, std::size_t index)
       : system_(system), shared_(static_cast<int>(index) == problem.shared) {
     for (const int block : problem.islands[index].bodies)
       if (system.owns(block)) own_.push_back(block);
@@ -73,14 +73,14 @@ struct ReleasedBlocks {
 };
 
 Onset prepare(const BlockSystem& system, const RunState& state, const Island& island,
-              const IslandOfRanks& ranks, const StepProblem& problem, ReleasedBlocks& released) {
+              const PartOfIsland& part, const StepProblem& problem, ReleasedBlocks& released) {
   Onset onset;
-  for (const int k : ranks.own()) {
+  for (const int k : part.own()) {
     onset.farthest = std::max(onset.farthest, displacement_since_onset(system, state, k));
     onset.smallest = std::min(onset.smallest, block_size(system.blocks()[at(k)]));
     onset.stiffer = std::max(onset.stiffer, stiffening(problem.bodies[at(k)]));
   }
-  onset = {ranks.least(onset.smallest), ranks.most(onset.stiffer), ranks.most(onset.farthest)};
+  onset = {part.least(onset.smallest), part.most(onset.stiffer), part.most(onset.farthest)};
   for (const int k : island.bodies) {
     released.states[at(k)].position = system.blocks()[at(k)].unstrained(state.states[at(k)].position);
     BodyStep& body = released.bodies[at(k)];
@@ -105,7 +105,7 @@ std::vector<Eigen::MatrixX3d> accelerations_of(const std::vector<int>& blocks,
 /// Replaces accelerations influenced by compliance by those of rigid blocks. Marks blocks of an island that rigid
 /// blocks would leave at rest.
 /// @param rigid_ones by own block of the island. @return true if the rigid blocks move
-bool take_over(const BlockSystem& system, const IslandOfRanks& island,
+bool take_over(const BlockSystem& system, const PartOfIsland& island,
                std::vector<Eigen::MatrixX3d> rigid_ones, StaticOnset& onset,
                std::vector<Eigen::MatrixX3d>& accelerations) {
   double along = 0.0;
@@ -153,17 +153,17 @@ bool starts_rigidly(const BlockSystem& system, RunState& state, IslandSolvers& s
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const Island& island = problem.islands[i];
     const IslandResult& result = problem.results[i];
-    const IslandOfRanks ranks(system, problem, i);
-    const double motion = ranks.most(largest_motion(island, problem.bodies));
-    if (!ranks.any(!island.pairs.empty()) || motion == 0.0) continue;
-    const bool is_compliant = ranks.any(std::any_of(ranks.own().begin(), ranks.own().end(), [&](int block) {
+    const PartOfIsland part(system, problem, i);
+    const double motion = part.most(largest_motion(island, problem.bodies));
+    if (!part.any(!island.pairs.empty()) || motion == 0.0) continue;
+    const bool is_compliant = part.any(std::any_of(part.own().begin(), part.own().end(), [&](int block) {
       return state.statics.onset.is_compliant[at(block)] != 0;
     }));
-    if (!ranks.all(is_rigid(island, pairs)) || is_compliant) {
+    if (!part.all(is_rigid(island, pairs)) || is_compliant) {
       all = false;
       continue;
     }
-    const Onset onset = prepare(system, state, island, ranks, problem, released);
+    const Onset onset = prepare(system, state, island, part, problem, released);
     for (std::size_t n = 0; n < island.pairs.size(); ++n) {
       ContactPair& pair = pairs[at(island.pairs[n])];
       pair = pair.at_rigid_onset(result.responses[n], result.laws[n], opened_by * onset.farthest);
@@ -173,13 +173,12 @@ bool starts_rigidly(const BlockSystem& system, RunState& state, IslandSolvers& s
     let_go.force_weight = onset.stiffer;
     settings.multipliers.penetration_tolerance = depth_share * way * onset.smallest;
     const IslandResult off =
-        ranks.shared() ? solve_shared_island(system, island, released.bodies, pairs, let_go, settings)
-                       : solve_island(island, released.bodies, pairs, let_go, settings, solvers);
+        part.shared() ? solve_joined_island(system, island, released.bodies, pairs, let_go, settings)
+                      : solve_island(island, released.bodies, pairs, let_go, settings, solvers);
     state.log.counts.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
-    const bool rigid =
-        off.status == IslandStatus::converged &&
-        take_over(system, ranks, accelerations_of(ranks.own(), released.bodies, let_go.inertia),
-                  state.statics.onset, accelerations);
+    const bool rigid = off.status == IslandStatus::converged &&
+                       take_over(system, part, accelerations_of(part.own(), released.bodies, let_go.inertia),
+                                 state.statics.onset, accelerations);
     all = all && rigid;
   }
   return all_of_run(system, all);

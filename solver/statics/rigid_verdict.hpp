@@ -25,10 +25,10 @@ namespace ashlar {
 [[nodiscard]] StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double end_time,
                                          StaticStatus status);
 
-/// True if iterations have recorded accelerations of blocks of this rank.
+/// True if iterations have recorded accelerations of blocks of this process.
 [[nodiscard]] bool has_accelerations(const StaticState& statics);
 
-/// Verdict on an analysis that goes on, with all blocks on this rank: moving if no forces within the strengths balance the loads where the
+/// Verdict on an analysis that goes on, with all blocks on this process: moving if no forces within the strengths balance the loads where the
 /// level began, and rigid blocks followed from there go far (followed_collapse.hpp). Joints with friction only, no bolts.
 /// @return moving, with the motion recorded, or balancing: undecided
 [[nodiscard]] StaticStatus rigid_collapse(const BlockSystem& system, RunState& state, double end_time);

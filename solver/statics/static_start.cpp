@@ -1,14 +1,12 @@
 #include "solver/statics/static_start.hpp"
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/ghosts.hpp"
-#include "solver/shared/shared_bolts.hpp"
-#include "solver/shared/shared_snapshot.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/statics/loose_blocks.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/step/accept/accepted_bolts.hpp"
 #include "solver/step/accept/snapshot.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 
 namespace ashlar {
 
@@ -23,15 +21,12 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   while (status == StaticStatus::balancing && goes_on()) status = static_step(run, state.time(), far);
   system.let_go_loose();
   if (status != StaticStatus::equilibrium) {
-    if (run.shared == nullptr)
-      restore(system, state, run.caches, as_placed);
-    else
-      restore_own(*run.shared, system, state, run.caches, as_placed);
+    system.exchange().restore_start(run, as_placed);
     return status;
   }
   for (int k = 0; k < system.count(); ++k)
     if (system.owns(k)) state.states[at(k)].velocity = as_placed.run.states[at(k)].velocity;
-  if (run.shared != nullptr) update_ghosts(system, state);
+  tell_states(system, state);
   state.statics = StaticState{};
   double in_springs = 0.0;
   for (PairRecord& record : state.records) {
@@ -60,7 +55,7 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
 
 double energy_of_ties(const BlockSystem& system, RunState& state, StepContacts& contacts) {
   double sum = 0.0;
-  // Collective: a rank may have no ties of a run that has some.
+  // Collective: a process may have no ties of a run that has some.
   if (!any_of_run(system, !system.ties().empty())) return sum;
   for (const ContactPair& pair : contacts.pairs(system, state, {}, PairUse::statics))
     if (pair.tied() && system.owns_pair(pair.a(), pair.b())) sum += pair.start_energy();

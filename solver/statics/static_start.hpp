@@ -14,8 +14,8 @@
 
 namespace ashlar {
 
-/// Starts a run whose contacts have not been detected yet. With ranks collective.
-/// @param goes_on called before each iteration: false ends the analysis; the same on all ranks
+/// Starts a run whose contacts have not been detected yet. With other processes collective.
+/// @param goes_on called before each iteration: false ends the analysis; the same on all processes
 /// @return status of the static analysis, balancing if it was ended; unless it is equilibrium all blocks are as
 /// placed
 [[nodiscard]] StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on);

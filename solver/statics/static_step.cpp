@@ -10,8 +10,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/archived_geometry.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/ghosts.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/statics/certain_motion.hpp"
 #include "solver/statics/static_verdict.hpp"
 #include "solver/step/accept/accepted_bolts.hpp"
@@ -30,12 +29,10 @@ TimeScheme static_scheme(double inertia) {
   return scheme;
 }
 
-/// Of all ranks.
+/// Of all processes.
 std::array<int, 3> contact_states(const BlockSystem& system, const StepReport& report) {
   std::array<int, 3> states{report.open, report.locked, report.sliding};
-  if (system.share() == nullptr) return states;
-  const std::vector<double> here(states.begin(), states.end());
-  const std::vector<double> sums = sum_of_ranks(system.share()->ranks(), here);
+  const std::vector<double> sums = sum_of_run(system, std::vector<double>(states.begin(), states.end()));
   for (std::size_t k = 0; k < states.size(); ++k) states[k] = static_cast<int>(sums[k]);
   return states;
 }
@@ -109,32 +106,23 @@ void let_bonds_go(RunState& state) {
   for (auto& [blocks, pair] : state.pairs) pair.memory.drop_multipliers();
 }
 
-/// Tells ranks where their ghosts were at the start of the load level. Collective.
-void update_level_starts(const BlockSystem& system, RunState& state) {
+/// Tells processes where their neighbours were at the start of the load level. Collective.
+void tell_level_starts(const BlockSystem& system, RunState& state) {
   std::vector<Eigen::MatrixX3d>& starts = state.statics.level_start;
-  const BlockShare& share = *system.share();
-  share.exchange(
-      [&](ByteWriter& writer, int rank) {
-        for (const int block : share.lent_to(rank)) writer(block, starts[at(block)]);
-      },
-      [&](ByteReader& reader, int) {
-        while (!reader.at_end()) {
-          int block = -1;
-          reader(block);
-          reader(starts.at(at(block)));
-        }
-      });
+  system.exchange().tell_neighbours(
+      [&starts](ByteWriter& writer, int block) { writer(starts[at(block)]); },
+      [&starts](ByteReader& reader, int block) { reader(starts.at(at(block))); });
 }
 
 /// One iteration: repeated with larger inertia until it is accepted.
 class StaticIteration {
  public:
   StaticIteration(const RunContext& run, double end_time, double far)
-      : system_(run.system),
+      : run_(run),
+        system_(run.system),
         state_(run.state),
         caches_(run.caches),
         fault_(run.fault),
-        shared_(run.shared),
         end_time_(end_time),
         far_(far),
         least_(least_inertia(run.system)) {
@@ -148,7 +136,7 @@ class StaticIteration {
 
   StaticStatus run() {
     for (int cuts = 0; cuts <= system_.settings().statics.cuts;
-         cuts += std::exchange(has_other_ghosts_, false) ? 0 : 1) {
+         cuts += std::exchange(has_other_neighbours_, false) ? 0 : 1) {
       const TimeScheme scheme = static_scheme(std::max(state_.statics.inertia, least_));
       double raise = 10.0;
       if (const auto status = attempt(scheme, raise)) return *status;
@@ -160,7 +148,7 @@ class StaticIteration {
 
  private:
   void detect() {
-    if (system_.share() != nullptr) update_level_starts(system_, state_);
+    tell_level_starts(system_, state_);
     problem_.found = caches_.contacts.detect(system_, state_, 0.0);
     pair_up();
   }
@@ -198,10 +186,12 @@ class StaticIteration {
       raise = std::clamp(1.1 * motion / system_.settings().statics.motion, 2.0, 1e4);
       return std::nullopt;
     }
-    if (needs_other_ghosts(problem_)) return again(raise);
-    const FollowedMotion followed = follow_motion(system_, state_, caches_.contacts, problem_, far_, shared_);
-    if (followed.beyond > 0.0 && leave_margin(*shared_, system_, state_, caches_, followed.beyond))
+    if (needs_other_neighbours()) return again(raise);
+    const FollowedMotion followed = follow_motion(system_, state_, caches_.contacts, problem_, far_);
+    if (followed.beyond > 0.0) {
+      system_.exchange().find_neighbours(run_, followed.beyond);
       return again(raise);
+    }
     if (any_of_run(system_, !followed.passing.empty())) {
       raise = meet(step, followed.passing);
       return std::nullopt;
@@ -214,18 +204,18 @@ class StaticIteration {
     return take(followed.certain, motion);
   }
 
-  /// True if blocks have moved so far that ghosts have been found again.
-  bool needs_other_ghosts(const StepProblem& problem) {
-    if (shared_ == nullptr) return false;
-    const double farthest =
-        farthest_path(*shared_, system_, caches_.contacts.finder(),
-                      [&problem](int block) { return problem.bodies[at(block)].motion(); });
-    return leave_margin(*shared_, system_, state_, caches_, farthest);
+  /// True if blocks have moved so far that neighbours have been found again.
+  bool needs_other_neighbours() {
+    const double way = system_.exchange().way_beyond(system_, caches_.contacts.finder(), [this](int block) {
+      return problem_.bodies[at(block)].motion();
+    });
+    if (way > 0.0) system_.exchange().find_neighbours(run_, way);
+    return way > 0.0;
   }
 
-  /// The same attempt with other ghosts, which is no cut.
+  /// The same attempt with other neighbours, which is no cut.
   std::optional<StaticStatus> again(double& raise) {
-    has_other_ghosts_ = true;
+    has_other_neighbours_ = true;
     raise = 1.0;
     problem_.results.clear();
     detect();
@@ -306,18 +296,18 @@ class StaticIteration {
 
   [[nodiscard]] bool has_gone_far() const { return has_set_off(system_, state_.statics); }
 
+  const RunContext& run_;
   BlockSystem& system_;
   RunState& state_;
   StepCaches& caches_;
   std::optional<StateFault>& fault_;
-  SharedBlocks* shared_;
   double end_time_;
   double far_;    ///< in block sizes
   double least_;  ///< inertia, 1/s^2
   StepProblem problem_;
   bool cut_ = false;
   bool cut_to_touch_ = false;
-  bool has_other_ghosts_ = false;  ///< found in the last attempt
+  bool has_other_neighbours_ = false;  ///< found in the last attempt
 };
 
 }  // namespace
@@ -335,7 +325,7 @@ StaticStatus static_step(const RunContext& run, double end_time, double far) {
     start_load_level(system, state, end_time);
   if (statics.iterations >= system.settings().statics.iterations) return give_up(system, statics);
   ++statics.iterations;
-  if (run.shared != nullptr) find_ghosts_for(*run.shared, system, state, run.caches, 0.0);
+  system.exchange().before_step(run, 0.0);
   return StaticIteration(run, end_time, far).run();
 }
 

@@ -8,7 +8,7 @@
 #include "geometry/index.hpp"
 #include "mechanics/basis/field_moments.hpp"
 #include "solver/archived_geometry.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/rigid_onset.hpp"
 
@@ -58,14 +58,10 @@ Joints joints_of(const StepProblem& problem, double tearing_gap) {
   return joints;
 }
 
-/// Ranks evaluate the accelerations of their own blocks. Collective. @param accelerations by block, (p, 3)
-void give_to_ghosts(const BlockShare& share, std::vector<Eigen::MatrixX3d>& accelerations) {
-  std::vector<Eigen::VectorXd> flat;
-  for (const Eigen::MatrixX3d& of_block : accelerations) flat.emplace_back(of_block.reshaped());
-  share.to_ghosts([&](int block) { return &flat[at(block)]; },
-                  [&](int block, const Eigen::VectorXd& value) {
-                    accelerations[at(block)] = value.reshaped(value.size() / 3, 3);
-                  });
+/// Processes evaluate the accelerations of their own blocks. Collective. @param accelerations by block, (p, 3)
+void tell_accelerations(const BlockSystem& system, std::vector<Eigen::MatrixX3d>& accelerations) {
+  system.exchange().tell_neighbours([&](ByteWriter& writer, int block) { writer(accelerations[at(block)]); },
+                                    [&](ByteReader& reader, int block) { reader(accelerations[at(block)]); });
 }
 
 }  // namespace
@@ -230,7 +226,7 @@ void note_accelerations(const BlockSystem& system, RunState& state, IslandSolver
     state.statics.onset.least_residual = lacking;
     state.statics.onset.rigid = rigid;
   }
-  if (system.share() != nullptr) give_to_ghosts(*system.share(), accelerations);
+  tell_accelerations(system, accelerations);
   state.statics.onset.unbalanced = std::move(accelerations);
 }
 
@@ -269,18 +265,8 @@ MovingBlocks moving_blocks(const BlockSystem& system, const RunState& state) {
 }
 
 std::vector<MovingBlock> moving_of_run(const BlockSystem& system, const RunState& state) {
-  MovingBlocks moving = moving_blocks(system, state);
-  if (system.share() != nullptr) {
-    const std::vector<MovingBlocks> of_ranks = values_of_ranks(system.share()->ranks(), moving);
-    moving = {};
-    const auto add = [](const std::vector<MovingBlock>& from, std::vector<MovingBlock>& to) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    for (const MovingBlocks& of_rank : of_ranks) {
-      add(of_rank.first, moving.first);
-      add(of_rank.later, moving.later);
-    }
-  }
+  const MovingBlocks own = moving_blocks(system, state);
+  MovingBlocks moving{joined_of_run(system, own.first), joined_of_run(system, own.later)};
   std::vector<MovingBlock>& told = moving.first.empty() ? moving.later : moving.first;
   std::sort(told.begin(), told.end(),
             [](const MovingBlock& x, const MovingBlock& y) { return x.block < y.block; });

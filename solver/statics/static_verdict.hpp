@@ -15,7 +15,7 @@ namespace ashlar {
 /// Displacement of a block since its onset of motion, m.
 [[nodiscard]] double displacement_since_onset(const BlockSystem& system, const RunState& state, int block);
 
-/// @name Decisions, which all ranks take together
+/// @name Decisions, which all processes take together
 /// @{
 /// True if the open-close iteration left no residual in any body (settings.statics.unconverged_share).
 [[nodiscard]] bool has_converged(const BlockSystem& system, const StepProblem& problem);
@@ -39,14 +39,14 @@ void forget_accelerations(RunState& state);
 [[nodiscard]] StaticStatus give_up(const BlockSystem& system, StaticState& statics);
 /// @}
 
-/// Blocks of this rank found to be moving.
+/// Blocks of this process found to be moving.
 struct MovingBlocks {
   std::vector<MovingBlock> first;  ///< from the onset on
   std::vector<MovingBlock>
       later;  ///< set in motion later: reported only if no block of the run moves from the onset on
 };
 [[nodiscard]] MovingBlocks moving_blocks(const BlockSystem& system, const RunState& state);
-/// Blocks of all ranks found to be moving, including blocks carried along, by block. Collective.
+/// Blocks of all processes found to be moving, including blocks carried along, by block. Collective.
 [[nodiscard]] std::vector<MovingBlock> moving_of_run(const BlockSystem& system, const RunState& state);
 
 }  // namespace ashlar

@@ -1,14 +1,14 @@
 #include "solver/step/dynamic_step.hpp"
 
 #include <algorithm>
+#include <any>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/ghosts.hpp"
-#include "solver/shared/rank_balance.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/accept/accepted_bolts.hpp"
 #include "solver/step/accept/accepted_step.hpp"
 #include "solver/step/accept/block_changes.hpp"
@@ -28,11 +28,11 @@ namespace {
 class DynamicStep {
  public:
   DynamicStep(const RunContext& run, double step)
-      : system_(run.system),
+      : run_(run),
+        system_(run.system),
         state_(run.state),
         caches_(run.caches),
         fault_(run.fault),
-        shared_(run.shared),
         step_(step) {
     problem_.found = caches_.contacts.detect(system_, state_, step);
   }
@@ -55,7 +55,7 @@ class DynamicStep {
         cut(*share);
       } else if (const auto broken = first_of_run(system_, broken_block(system_, state_, problem_))) {
         reject_for(*broken);
-      } else if (needs_other_ghosts()) {
+      } else if (needs_other_neighbours()) {
         problem_.found = caches_.contacts.detect(system_, state_, step_);
         pair_up();
       } else if (const auto passing = blocks_that_pass(); any_of_run(system_, !passing.empty())) {
@@ -91,11 +91,11 @@ class DynamicStep {
     while (moves_ < most && too_deep(system_, state_, problem_.pairs)) {
       if (!unmoved_) {
         unmoved_ = snapshot_of(system_, state_, caches_);
-        if (shared_ != nullptr) ghosts_of_unmoved_ = ghosts_now(*shared_);
+        neighbours_of_unmoved_ = system_.exchange().neighbours();
       }
       if (!project_positions(system_, state_, caches_, step_, problem_)) break;
       ++moves_;
-      if (shared_ != nullptr) (void)leave_margin(*shared_, system_, state_, caches_);
+      (void)needs_other_neighbours({});
       do {
         detect();
       } while (wake_touched(system_, state_, problem_.pairs));
@@ -121,15 +121,17 @@ class DynamicStep {
     problem_.pairs = caches_.contacts.pairs(system_, state_, problem_.found, PairUse::motion);
   }
 
-  /// True if blocks have moved so far that ghosts have been found again.
-  bool needs_other_ghosts() {
-    if (shared_ == nullptr) return false;
-    const double farthest = farthest_path(*shared_, system_, caches_.contacts.finder(),
-                                          [this](int block) { return problem_.bodies[at(block)].motion(); });
-    return leave_margin(*shared_, system_, state_, caches_, farthest);
+  /// True if blocks have moved so far that neighbours have been found again.
+  bool needs_other_neighbours(const std::function<Eigen::MatrixX3d(int block)>& motion) {
+    const double way = system_.exchange().way_beyond(system_, caches_.contacts.finder(), motion);
+    if (way > 0.0) system_.exchange().find_neighbours(run_, way);
+    return way > 0.0;
+  }
+  bool needs_other_neighbours() {
+    return needs_other_neighbours([this](int block) { return problem_.bodies[at(block)].motion(); });
   }
 
-  /// Of pairs of blocks that this rank owns.
+  /// Of pairs of blocks that this process owns.
   std::vector<PassingBlocks> blocks_that_pass() {
     const std::vector<BlockState> after = states_after(system_, state_, problem_);
     std::vector<PassingBlocks> passing =
@@ -175,19 +177,19 @@ class DynamicStep {
     if (moves_ == 0) return;
     unmoved_->run.log = state_.log;
     unmoved_->run.log.counts = counts_of(state_, caches_);
-    if (shared_ != nullptr) restore_ghosts(*shared_, system_, state_, caches_, ghosts_of_unmoved_);
+    system_.exchange().restore_neighbours(run_, neighbours_of_unmoved_);
     restore(system_, state_, caches_, *unmoved_);
   }
 
+  const RunContext& run_;
   BlockSystem& system_;
   RunState& state_;
   StepCaches& caches_;
   std::optional<StateFault>& fault_;
-  SharedBlocks* shared_;
   double step_;  ///< s
   StepProblem problem_;
   std::optional<SimulationSnapshot> unmoved_;  ///< before blocks were separated
-  GhostsThen ghosts_of_unmoved_;               ///< of a run that ranks share
+  std::any neighbours_of_unmoved_;
   int moves_ = 0;
   int cuts_ = 0;
   int additions_ = 0;
@@ -207,8 +209,7 @@ StepStatus take_step(const RunContext& run, double end_time) {
   step = limited_by_turns(system, state, step);
   if (settings.integrator == Integrator::generalized_alpha && state.accelerations.empty())
     state.accelerations = smooth_accelerations(system, state);
-  if (run.shared != nullptr) balance_ranks(*run.shared, system, state, run.caches);
-  if (run.shared != nullptr) find_ghosts_for(*run.shared, system, state, run.caches, step);
+  system.exchange().before_step(run, step);
   wake_for_loads(system, state, step);
   commit_bolts(state);
   return DynamicStep(run, step).run();

@@ -9,16 +9,13 @@
 
 namespace ashlar {
 
-struct SharedBlocks;  // ghosts.hpp
-
 /// All refer to one simulation, for the duration of one call.
 struct RunContext {
   BlockSystem& system;
   RunState& state;
   StepCaches& caches;
   std::optional<StateFault>&
-      fault;                       ///< fault at the end of the last rejected step, if it was rejected for one
-  SharedBlocks* shared = nullptr;  ///< of a run that ranks share; null: one rank has all blocks
+      fault;  ///< fault at the end of the last rejected step, if it was rejected for one
 
   [[nodiscard]] const SimulationSettings& settings() const { return system.settings(); }
 };

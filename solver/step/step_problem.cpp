@@ -5,9 +5,9 @@
 
 #include "geometry/index.hpp"
 #include "solver/parallel_for.hpp"
-#include "solver/ranks/block_share.hpp"
-#include "solver/shared/shared_bolts.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
+#include "solver/step/solve/joined_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -72,12 +72,6 @@ std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& 
   return results;
 }
 
-/// Gets the changes of ghosts. @return the worst status of any rank
-IslandStatus agree_on_end(const BlockSystem& system, IslandStatus status, std::vector<BodyStep>& bodies) {
-  update_ghost_changes(system, bodies);
-  return static_cast<IslandStatus>(max_of_ranks(system.share()->ranks(), static_cast<double>(status)));
-}
-
 }  // namespace
 
 IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme, FactorCache& factors,
@@ -93,7 +87,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   problem.results = solve_islands(problem, scheme, system.settings(), factors);
   if (problem.shared >= 0)
     problem.results[at(problem.shared)] =
-        solve_shared_island(system, problem.islands[at(problem.shared)], problem.bodies, problem.pairs,
+        solve_joined_island(system, problem.islands[at(problem.shared)], problem.bodies, problem.pairs,
                             scheme, system.settings(), &factors.shared);
   SimulationCounts& counts = state.log.counts;
   IslandStatus status = IslandStatus::converged;
@@ -103,7 +97,8 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
     counts.open_close_fallbacks += static_cast<std::uint64_t>(result.fallbacks);
     if (status == IslandStatus::converged) status = result.status;
   }
-  return system.share() == nullptr ? status : agree_on_end(system, status, problem.bodies);
+  tell_changes(system, problem.bodies);
+  return static_cast<IslandStatus>(most_of_run(system, static_cast<double>(status)));
 }
 
 void pose_step(const BlockSystem& system, const RunState& state, const TimeScheme& scheme,
@@ -112,7 +107,7 @@ void pose_step(const BlockSystem& system, const RunState& state, const TimeSchem
   problem.bolts = bolts_of_step(system, state);
   problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
   validate(problem.islands, system.moving(), problem.pairs);
-  problem.shared = system.share() == nullptr ? -1 : join_shared_islands(system, problem.islands);
+  problem.shared = system.exchange().join_islands(system, problem.islands);
   problem.bodies = prepare_bodies(system, state, scheme);
   for (ContactPair& pair : problem.pairs) {
     pair.begin_step(system.blocks()[at(pair.a())], system.blocks()[at(pair.b())],

@@ -23,7 +23,7 @@ struct StepProblem {
   TimeScheme scheme;  ///< of the last trial
   std::vector<StepBolt> bolts;
   std::vector<Island> islands;
-  int shared = -1;  ///< index of the island that several ranks share (shared_island.hpp); -1: none
+  int shared = -1;  ///< index of the island that several processes share (step_exchange.hpp); -1: none
   std::vector<BodyStep> bodies;
   std::vector<IslandResult> results;            ///< by island
   std::map<std::size_t, CarriedBlock> carried;  ///< next steps of incremental blocks

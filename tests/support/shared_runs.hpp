@@ -224,7 +224,7 @@ inline End run_shared(const Scene& scene, const std::vector<int>& owners, int ra
 inline std::string stored_snapshot(Simulation& simulation) {
   simulation.gather_results();
   const SimulationSnapshot snapshot = simulation.snapshot();
-  return simulation.system().share()->ranks().own() == 0 ? to_bytes(snapshot) : std::string();
+  return simulation.system().exchange().first() ? to_bytes(snapshot) : std::string();
 }
 
 /// Largest difference of positions, m.

@@ -52,7 +52,7 @@ int exit_status_of(RunStatus status) {
 /// then: in later stages, and in the motion that a search shows at its end.
 NeededPairs pairs_needed_by(const Run& run) {
   const BlockSystem& system = run.simulation().system();
-  if (system.share() == nullptr || !run.whole().stage.empty() || seeks_answer(run.whole().analysis))
+  if (system.exchange().alone() || !run.whole().stage.empty() || seeks_answer(run.whole().analysis))
     return nullptr;
   return [&system](const PairKey& blocks) { return system.owns(blocks[0]) || system.owns(blocks[1]); };
 }

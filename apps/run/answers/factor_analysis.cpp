@@ -8,7 +8,7 @@
 #include <set>
 
 #include "apps/results/folder/run_status.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 
 namespace ashlar {
 namespace {

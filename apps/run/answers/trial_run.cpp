@@ -4,7 +4,7 @@
 
 #include "apps/run/answers/factor_analysis.hpp"
 #include "solver/paths/load_path.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 

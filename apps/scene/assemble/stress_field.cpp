@@ -50,7 +50,7 @@ void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics&
     throw;
   } catch (const std::runtime_error& error) {
     // The first rank is told the error of another one as text.
-    if (simulation.system().share() == nullptr) throw;
+    if (simulation.system().exchange().alone()) throw;
     refuse(error);
   }
   if (!worst || worst->share < reported_from) return;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "solver/ranks/block_share.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -48,8 +48,8 @@ std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, 
 bool bonds_any(const JointTable& table, std::size_t joint, const BlockSystem& system) {
   bool bonds = false;
   const std::vector<BlockModel>& blocks = system.blocks();
-  // The first of several ranks has the models of all blocks.
-  const bool has_all = system.share() == nullptr || system.share()->ranks().own() == 0;
+  // The first of several processes has the models of all blocks.
+  const bool has_all = system.exchange().first();
   const auto is_known = [&](std::size_t block) { return has_all || system.here(static_cast<int>(block)); };
   for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
     if (!table.law_between(a, b).tie || !is_known(a) || !is_known(b)) return true;

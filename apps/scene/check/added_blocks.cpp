@@ -9,7 +9,7 @@
 #include "apps/scene/check/initial_overlap.hpp"
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
+#include "solver/state/agreement.hpp"
 
 namespace ashlar {
 namespace {
@@ -40,7 +40,7 @@ struct AddedOverlap {
   std::string fault;  ///< empty: all fit
 };
 
-/// The overlap farthest beyond what is allowed, of pairs that this rank makes.
+/// The overlap farthest beyond what is allowed, of pairs that this process makes.
 AddedOverlap overlap_here(const Simulation& simulation, const std::vector<bool>& was_absent) {
   const BlockSystem& system = simulation.system();
   PlacedBlocks added, others;
@@ -75,11 +75,11 @@ AddedOverlap overlap_here(const Simulation& simulation, const std::vector<bool>&
 
 std::optional<std::string> overlap_of_added(const Simulation& simulation,
                                             const std::vector<bool>& was_absent) {
-  AddedOverlap most = overlap_here(simulation, was_absent);
-  if (const BlockShare* share = simulation.system().share(); share != nullptr)
-    for (AddedOverlap& other : values_of_ranks(share->ranks(), most))
-      if (other.beyond > most.beyond || (other.beyond == most.beyond && other.blocks < most.blocks))
-        most = std::move(other);
+  AddedOverlap most;
+  for (AddedOverlap& other : values_of_run(simulation.system(), overlap_here(simulation, was_absent)))
+    if (most.fault.empty() || other.beyond > most.beyond ||
+        (other.beyond == most.beyond && other.blocks < most.blocks))
+      most = std::move(other);
   if (most.fault.empty()) return std::nullopt;
   return std::move(most.fault);
 }

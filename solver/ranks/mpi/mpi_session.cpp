@@ -8,6 +8,7 @@
 
 #include "solver/ranks/mpi/mpi_ranks.hpp"
 #include "solver/ranks/mpi/petsc_check.hpp"
+#include "solver/system/environment.hpp"
 
 // As for CHOLMOD: a rank is one process of several on a machine, and sums must not depend on its cores.
 extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
@@ -29,7 +30,7 @@ MpiSession::MpiSession(const std::vector<std::string>& options) {
   ranks_ = make_mpi_ranks();
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
   // Scotch's partitions, and orderings of MUMPS by it, depend on its threads: one for each core it sees, if not told.
-  setenv("SCOTCH_PTHREAD_NUMBER", "1", 1);
+  set_environment("SCOTCH_PTHREAD_NUMBER", "1");
   // Signals are the program's, which saves a state and ends.
   std::vector<std::string> words = {"ashlar", "-no_signal_handler"};
   words.insert(words.end(), options.begin(), options.end());

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/shared_bolts.hpp"
+#include "solver/state/agreement.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 
 namespace ashlar {
 namespace {

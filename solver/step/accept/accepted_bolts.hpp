@@ -5,7 +5,7 @@
 
 namespace ashlar {
 
-/// Energies of the bolts of a step that a rank owns, J.
+/// Energies of the bolts of a step that a process owns, J.
 struct BoltEnergies {
   double work = 0.0;        ///< on all blocks
   double held = 0.0;        ///< stored at the end
@@ -20,12 +20,12 @@ struct BoltEnergies {
                                            const StepProblem& problem);
 /// Lets evaluations start from the last state: at the start of a load level and of motion.
 void commit_bolts(RunState& state);
-/// Breaks bars that have reached their rupture strain in a static analysis. With several ranks collective.
+/// Breaks bars that have reached their rupture strain in a static analysis. With several processes collective.
 /// @return true if there are any in the run
 bool rupture_bolts(const BlockSystem& system, RunState& state);
 
-/// Installs bolts of the run in the present state that have no memory yet. With several ranks collective; each block
-/// along a bolt has to be a ghost of the others' owners. @return energy that those of this rank store, J
+/// Installs bolts of the run in the present state that have no memory yet. With several processes collective; each block
+/// along a bolt has to be a neighbour of the others' owners. @return energy that those of this process store, J
 double install_bolts(const BlockSystem& system, RunState& state);
 
 }  // namespace ashlar

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
-#include "solver/shared/island_parts.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/accept/angular_momentum.hpp"
+#include "solver/step/accept/island_parts.hpp"
 #include "solver/step/accept/turn_limit.hpp"
 #include "solver/step/island/applied_force.hpp"
 
@@ -146,7 +146,7 @@ class TurnedBodies {
     note_gain(body.front(), loss.limit, gain);
   }
 
-  /// The same of bodies with blocks of several ranks. Collective. @param bodies the same on all ranks
+  /// The same of bodies with blocks of several processes. Collective. @param bodies the same on all processes
   void return_spins(const std::vector<std::vector<int>>& bodies) {
     std::vector<std::vector<int>> own;
     Eigen::MatrixXd masses = Eigen::MatrixXd::Zero(4, static_cast<Eigen::Index>(bodies.size()));
@@ -181,7 +181,7 @@ class TurnedBodies {
       missing.emplace_back(-losses.col(column).head<3>());
     }
     const std::vector<Spin> spins =
-        spins_of(system_.blocks(), turned, missing, state_.states, summed_over_ranks(system_));
+        spins_of(system_.blocks(), turned, missing, state_.states, summed_over_processes(system_));
     for (std::size_t n = 0; n < turned.size(); ++n) {
       const double limit = losses(3, columns[n]);
       const double share = spins[n].share_within(std::max(limit, 0.0));
@@ -229,11 +229,7 @@ class TurnedBodies {
   std::vector<Eigen::VectorXd> forces_;
 };
 
-bool has_shared_bodies(const BlockSystem& system) {
-  return system.share() != nullptr && !system.share()->shared_bodies().empty();
-}
-
-/// Returns to free blocks the spin that a step has removed, see angular_momentum.hpp. With several ranks collective.
+/// Returns to free blocks the spin that a step has removed, see angular_momentum.hpp. With several processes collective.
 /// @param before states at the start of the step. @param dissipated by the integrator in each block, J
 void keep_angular_momentum(const BlockSystem& system, RunState& state, const StepProblem& problem,
                            const std::vector<BlockState>& before, const std::vector<double>& dissipated) {
@@ -242,7 +238,7 @@ void keep_angular_momentum(const BlockSystem& system, RunState& state, const Ste
   for (const std::vector<int>& body : system.free_bodies())
     if (system.moving()[at(body.front())] && std::all_of(body.begin(), body.end(), is_own))
       bodies.return_spin(body);
-  if (has_shared_bodies(system)) bodies.return_spins(system.share()->shared_bodies());
+  if (!system.parted_bodies().empty()) bodies.return_spins(system.parted_bodies());
 }
 
 /// Notes how far blocks turn in a step. @param before states at its start

@@ -12,7 +12,7 @@ struct PotentialSum {
 };
 
 /// Moves all blocks to the end of a solved problem and books the energies of inertia, loads and damping. Free blocks
-/// get back the spin that the integrator has removed (angular_momentum.hpp). With several ranks collective. @return sum over elastic energies
+/// get back the spin that the integrator has removed (angular_momentum.hpp). With several processes collective. @return sum over elastic energies
 [[nodiscard]] PotentialSum move_blocks(const BlockSystem& system, RunState& state,
                                        const StepProblem& problem);
 

@@ -9,7 +9,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/contact/contact_accounts.hpp"
-#include "solver/shared/ghosts.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/accept/accepted_bolts.hpp"
 #include "solver/step/accept/accepted_motion.hpp"
 #include "solver/step/accept/block_changes.hpp"
@@ -256,7 +256,7 @@ void accept(BlockSystem& system, RunState& state, StepCaches& caches, StepProble
   caches.factors.drop_unused();
   finder.accept_motion();
   const PotentialSum of_blocks = move_blocks(system, state, problem);
-  if (system.share() != nullptr) update_ghosts(system, state);
+  tell_states(system, state);
   const std::vector<StoppedPair> stopped = stop_at_contacts(system, state, caches.factors.islands, problem);
   AcceptedContacts(system, state, problem).take_over(stopped, finder.surfaces(), of_blocks);
   for (auto& [block, next] : problem.carried)
@@ -267,7 +267,7 @@ void accept(BlockSystem& system, RunState& state, StepCaches& caches, StepProble
   extremes.penetration = std::max(extremes.penetration, state.report.penetration);
   note_depths(system, state, problem.audit.depths);
   problem.audit.take_over(state.depths);
-  if (system.share() != nullptr) update_ghost_contacts(system, state);
+  system.exchange().tell_contacts(system, state);
   note_rest(system, state, finder, problem);
   state.ledger.close_step(system, state.states);
   drop_empty(state.pairs);

@@ -59,7 +59,7 @@ void Spin::add(double share, const std::vector<BlockModel>& blocks, const std::v
 
 std::vector<Spin> spins_of(const std::vector<BlockModel>& blocks, const std::vector<std::vector<int>>& bodies,
                            const std::vector<Vector3>& angular_momenta, const std::vector<BlockState>& states,
-                           const SumOverRanks& sum) {
+                           const SumOverProcesses& sum) {
   const auto count = static_cast<Eigen::Index>(bodies.size());
   std::vector<Spin> spins(bodies.size());
   const auto each = [&](const auto& act) {

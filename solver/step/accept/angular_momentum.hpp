@@ -54,15 +54,16 @@ struct Spin {
            std::vector<BlockState>& states) const;
 };
 
-/// Sums values over ranks, in place. @param values a column for each body
-using SumOverRanks = std::function<void(Eigen::MatrixXd& values)>;
+/// Sums values over processes, in place. @param values a column for each body
+using SumOverProcesses = std::function<void(Eigen::MatrixXd& values)>;
 
-/// Spins that give bodies an angular momentum. @param bodies indices of the blocks of each; on a rank its own blocks
+/// Spins that give bodies an angular momentum. @param bodies indices of the blocks of each; on a process its own blocks
 /// @param angular_momenta gained by each, kg m^2/s. @param sum empty: bodies are whole here
 [[nodiscard]] std::vector<Spin> spins_of(const std::vector<BlockModel>& blocks,
                                          const std::vector<std::vector<int>>& bodies,
                                          const std::vector<Vector3>& angular_momenta,
-                                         const std::vector<BlockState>& states, const SumOverRanks& sum = {});
+                                         const std::vector<BlockState>& states,
+                                         const SumOverProcesses& sum = {});
 
 /// Adds a rigid rotation about the common centroid of blocks to their velocities, scaled down if it would exceed a
 /// limit of energy. @param body indices. @param angular_momentum gained, kg m^2/s

@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/ghosts.hpp"
-#include "solver/shared/island_parts.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/accept/block_changes.hpp"
+#include "solver/step/accept/island_parts.hpp"
 #include "solver/step/island/applied_force.hpp"
+#include "solver/step/solve/joined_island.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -22,7 +21,7 @@ constexpr double inertia_share = 0.01;  // of the inertia in a step: blocks move
 /// An island whose blocks are moved.
 struct MovedIsland {
   std::size_t place;   // among the deep ones
-  double energy;       // required by its motion on all ranks, J
+  double energy;       // required by its motion on all processes, J
   double energy_here;  // by that of own blocks, J
   Vector3 momentum;    // angular, of own blocks, before
 };
@@ -50,7 +49,7 @@ StepProblem pose(const BlockSystem& system, const RunState& state, const std::ve
   StepProblem problem;
   for (const ContactPair& pair : pairs) problem.pairs.push_back(pair.projected(pushed_from));
   problem.islands = find_islands(system.moving(), problem.pairs);
-  problem.shared = system.share() == nullptr ? -1 : join_shared_islands(system, problem.islands);
+  problem.shared = system.exchange().join_islands(system, problem.islands);
   problem.bodies.resize(system.blocks().size());
   for (int k = 0; k < system.count(); ++k) {
     BodyStep& body = problem.bodies[at(k)];
@@ -115,7 +114,7 @@ TimeScheme scheme_of_motion(double step) {
   return scheme;
 }
 
-/// The smallest motion that separates the blocks of deep points. With several ranks all of it is collective.
+/// The smallest motion that separates the blocks of deep points. With several processes all of it is collective.
 class Separation {
  public:
   /// @param pairs of the step; used as long as this
@@ -142,7 +141,7 @@ class Separation {
       solve_islands(solvers, scheme, settings, converged);
     }
     scale(scheme, converged);
-    if (system_.share() != nullptr) update_ghost_changes(system_, problem_.bodies);
+    tell_changes(system_, problem_.bodies);
     // Bodies outlive their relaxed states.
     for (std::size_t k = 0; k < relaxed_.size(); ++k) problem_.bodies[k].state = &state_.states[k];
     return !moved_.empty();
@@ -163,7 +162,7 @@ class Separation {
     }
     book();
     funds_.spend_from(state_.pairs);
-    if (system_.share() != nullptr) update_ghosts(system_, state_);
+    tell_states(system_, state_);
   }
 
  private:
@@ -188,7 +187,7 @@ class Separation {
     const Island joined = deep_part(system_, problem_.islands[at(problem_.shared)], problem_.pairs, deep_);
     relax(joined);
     const bool all =
-        count(solve_shared_island(system_, joined, problem_.bodies, problem_.pairs, scheme, settings));
+        count(solve_joined_island(system_, joined, problem_.bodies, problem_.pairs, scheme, settings));
     for (std::size_t n = 0; n < deep_.size(); ++n)
       if (deep_[n].joined) converged[n] = all;
   }
@@ -252,7 +251,7 @@ class Separation {
     std::vector<Vector3> momenta;
     for (Eigen::Index n = 0; n < lost.cols(); ++n) momenta.emplace_back(lost.col(n));
     const std::vector<Spin> spins =
-        spins_of(system_.blocks(), bodies, momenta, state_.states, summed_over_ranks(system_));
+        spins_of(system_.blocks(), bodies, momenta, state_.states, summed_over_processes(system_));
     LedgerKeeper& ledger = state_.ledger;
     for (std::size_t n = 0; n < moved_.size(); ++n) {
       const IslandPart& island = deep_[moved_[n].place];
@@ -261,7 +260,7 @@ class Separation {
       const double share = spins[n].share_within(funds_.available(moved_[n].place));
       spins[n].add(share, system_.blocks(), bodies[n], state_.states);
       funds_.use(moved_[n].place, spins[n].gain(share));
-      // The energy of the whole island is booked by one rank.
+      // The energy of the whole island is booked by one process.
       if (system_.owns(island.first)) ledger.integrator_took(-spins[n].gain(share));
     }
   }

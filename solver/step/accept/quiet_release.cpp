@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/ghost_models.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/accept/block_changes.hpp"
 #include "solver/step/island/island_equations.hpp"
 #include "solver/step/step_problem.hpp"
@@ -87,14 +86,14 @@ void release_quiet_faces(BlockSystem& system, RunState& state, StepCaches& cache
   if (!any_of_run(system, !released.empty())) return;
   const std::vector<Eigen::VectorXd> forces = residuals(system, state, caches, released);
   for (std::size_t n = 0; n < released.size(); ++n) {
-    // Forces on ghosts are not complete.
+    // Forces on neighbours are not complete.
     if (!system.owns(released[n].block)) continue;
     const BlockModel& block = system.blocks()[at(released[n].block)];
     const AdmissibleSpace& held = released[n].held->space;
     const Eigen::MatrixX3d missing = -block.space().expand(forces[n]);
     system.set_reaction(released[n].block, missing - held.expand(held.restrict(missing)));
   }
-  if (system.share() != nullptr) update_ghost_models(system, state, caches);
+  system.exchange().tell_models(system, state, caches);
 }
 
 void hold_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches) {

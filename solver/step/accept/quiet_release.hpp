@@ -13,7 +13,7 @@
 
 namespace ashlar {
 
-/// Releases quiet faces that are held. No effect without any. With several ranks collective.
+/// Releases quiet faces that are held. No effect without any. With several processes collective.
 void release_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches);
 /// Holds quiet faces that are released at their present places; their reactions are dropped.
 void hold_quiet_faces(BlockSystem& system, RunState& state, StepCaches& caches);

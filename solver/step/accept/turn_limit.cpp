@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 
 namespace ashlar {
 

@@ -4,12 +4,11 @@
 #include <optional>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/ghosts.hpp"
-#include "solver/shared/island_parts.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
+#include "solver/step/accept/island_parts.hpp"
 #include "solver/step/island/island_equations.hpp"
 #include "solver/step/island/island_tangent.hpp"
+#include "solver/step/island/joined_system.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -75,8 +74,8 @@ EndedStep ended_step(const BlockSystem& system, RunState& state, const StepProbl
 /// The impulses of one island.
 class IslandImpulses {
  public:
-  /// @param ranks of the solver
-  IslandImpulses(EndedStep& ended, std::size_t island, IslandSolvers::Entry& solver, const IslandRanks& ranks)
+  /// @param sums of the solver
+  IslandImpulses(EndedStep& ended, std::size_t island, IslandSolvers::Entry& solver, const IslandSums& sums)
       : system_(ended.system),
         state_(ended.state),
         step_(ended.problem.scheme.step),
@@ -85,7 +84,7 @@ class IslandImpulses {
         result_(ended.problem.results[island]),
         bodies_(ended.bodies),
         scheme_(impulsive(step_)),
-        problem_(island_, bodies_, pairs_, scheme_, system_.settings(), solver, ranks),
+        problem_(island_, bodies_, pairs_, scheme_, system_.settings(), solver, sums),
         velocities_(bodies_.size()) {
     const TimeScheme& of_step = ended.problem.scheme;
     act_at_end(island_, pairs_, result_, bodies_, problem_);
@@ -105,7 +104,7 @@ class IslandImpulses {
       problem_.apply(tangent.solve(problem_.contact_forces(), false), 1.0);
       for (const int k : island_.bodies) velocities_[at(k)] += bodies_[at(k)].change;
       found_ = impulses();
-    } while (problem_.ranks().any(let_go_of_pulls(island_, pairs_, result_, found_, let_go_)));
+    } while (problem_.sums().any(let_go_of_pulls(island_, pairs_, result_, found_, let_go_)));
     return true;
   }
 
@@ -213,15 +212,17 @@ void stop_island(EndedStep& ended, std::size_t n, bool is_shared, IslandSolvers&
   bool pushes = false;
   for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
     pushes = problem.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
-  std::optional<SharedIslandSystem> linear;
+  std::unique_ptr<JoinedSystem> linear;
   if (is_shared) {
     pushes = any_of_run(ended.system, pushes);
-    if (pushes) linear.emplace(ended.system, island, ended.bodies, problem.pairs);
+    if (pushes)
+      linear =
+          ended.system.exchange().joined_system(ended.system, island, ended.bodies, problem.pairs, nullptr);
   }
   if (!pushes) return;
   IslandSolvers::Entry& solver =
       linear ? linear->solver() : solver_of(island, ended.bodies, problem.pairs, SystemRole::stop, solvers);
-  IslandImpulses stop(ended, n, solver, linear ? linear->ranks() : IslandRanks::one_rank());
+  IslandImpulses stop(ended, n, solver, linear ? linear->sums() : IslandSums::of_one_process());
   if (stop.find()) stop.apply(parts, stopped, losses);
 }
 
@@ -242,7 +243,7 @@ void book_losses(const BlockSystem& system, RunState& state, const std::vector<I
     momenta.emplace_back(sums.col(k).tail<3>());
   }
   const std::vector<Spin> spins =
-      spins_of(system.blocks(), bodies, momenta, state.states, summed_over_ranks(system));
+      spins_of(system.blocks(), bodies, momenta, state.states, summed_over_processes(system));
   const std::optional<SharedAccounts> shared = shared_accounts(system);
   for (std::size_t k = 0, next = 0; k < parts.size(); ++k) {
     double lost = losses[k].energy;
@@ -257,7 +258,7 @@ void book_losses(const BlockSystem& system, RunState& state, const std::vector<I
         funds.spend_from(state.pairs);
       }
       spin.add(share, system.blocks(), bodies[next++], state.states);
-      // Energies of the whole island are booked by one rank.
+      // Energies of the whole island are booked by one process.
       if (system.owns(parts[k].first)) lost -= spin.gain(share);
     }
     if (losses[k].stopped) state.ledger.integrator_took(lost);
@@ -277,7 +278,7 @@ std::vector<StoppedPair> stop_at_contacts(const BlockSystem& system, RunState& s
   for (std::size_t n = 0; n < problem.islands.size(); ++n)
     stop_island(ended, n, static_cast<int>(n) == problem.shared, solvers, parts, stopped, losses);
   book_losses(system, state, parts.parts, losses);
-  if (system.share() != nullptr) update_ghosts(system, state);
+  tell_states(system, state);
   return stopped;
 }
 

@@ -38,7 +38,7 @@ struct StoppedPair {
 };
 
 /// Stops approaching points at the end of a step whose blocks have been moved. Changes velocities and books their
-/// energy loss. With several ranks collective. @return by pair of the problem
+/// energy loss. With several processes collective. @return by pair of the problem
 [[nodiscard]] std::vector<StoppedPair> stop_at_contacts(const BlockSystem& system, RunState& state,
                                                         IslandSolvers& solvers, const StepProblem& problem);
 

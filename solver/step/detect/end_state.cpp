@@ -6,7 +6,7 @@
 #include <map>
 
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -168,9 +168,8 @@ RejectionCause cause_here(const BlockSystem& system, const RunState& state, cons
 
 RejectionCause cause_of_failure(const BlockSystem& system, const RunState& state, const StepProblem& problem,
                                 IslandStatus status) {
-  RejectionCause here = cause_here(system, state, problem, status);
-  if (system.share() == nullptr) return here;
-  const std::vector<RejectionCause> causes = values_of_ranks(system.share()->ranks(), here);
+  const std::vector<RejectionCause> causes =
+      values_of_run(system, cause_here(system, state, problem, status));
   for (const RejectionCause& cause : causes)
     if (cause.reason == RejectionReason::not_finite) return cause;
   for (const RejectionCause& cause : causes)

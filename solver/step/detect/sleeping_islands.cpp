@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/shared_bolts.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 
 namespace ashlar {
 namespace {
@@ -79,7 +78,7 @@ std::vector<Eigen::MatrixX3d> note_paths(const BlockSystem& system, const Contac
   return velocities;
 }
 
-/// The part of an island that a rank owns.
+/// The part of an island that a process owns.
 struct RestingPart {
   int first = -1;           ///< lowest block of the whole island
   std::vector<int> blocks;  ///< increasing
@@ -96,7 +95,7 @@ std::map<int, RestingPart> parts_of(const BlockSystem& system, const StepProblem
     const Island& island = problem.islands[k];
     const bool shared = static_cast<int>(k) == problem.shared;
     std::map<int, int> first;  // of a body's island
-    if (shared) first = first_blocks(system, island, problem.pairs);
+    if (shared) first = system.exchange().first_blocks(system, island, problem.pairs);
     const auto part_of = [&](int block) -> RestingPart& {
       return parts[shared ? first.at(block) : island.bodies.front()];
     };
@@ -122,17 +121,16 @@ std::map<int, RestingPart> parts_of(const BlockSystem& system, const StepProblem
   return parts;
 }
 
-/// Islands whose blocks all rest, with their blocks on all ranks and the energy held here, in order.
+/// Islands whose blocks all rest, with their blocks on all processes and the energy held here, in order.
 template <class Rests>
 std::vector<RestingPart> resting_islands(const BlockSystem& system, const StepProblem& problem,
                                          const Rests& rests) {
-  std::map<int, RestingPart> parts = parts_of(system, problem, rests);
-  if (system.share() != nullptr) {
-    const Ranks& ranks = system.share()->ranks();
-    const auto of_ranks = values_of_ranks(system.share()->ranks(), parts);
-    for (int rank = 0; rank < ranks.count(); ++rank) {
-      if (rank == ranks.own()) continue;
-      for (const auto& [first, other] : of_ranks[at(rank)]) {
+  const std::map<int, RestingPart> own = parts_of(system, problem, rests);
+  std::map<int, RestingPart> parts = own;
+  if (!system.exchange().alone()) {
+    for (auto& [first, part] : parts) part.blocks.clear();
+    for (const auto& of_process : values_of_run(system, own)) {
+      for (const auto& [first, other] : of_process) {
         RestingPart& part = parts[first];
         part.first = first;
         part.blocks.insert(part.blocks.end(), other.blocks.begin(), other.blocks.end());

@@ -9,8 +9,7 @@
 #include "mechanics/contact/overlap_outline.hpp"
 #include "mechanics/contact/reference_face.hpp"
 #include "solver/parallel_for.hpp"
-#include "solver/ranks/block_share.hpp"
-#include "solver/shared/known_contacts.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/step/step_problem.hpp"
 #include "solver/stopwatch.hpp"
@@ -119,6 +118,17 @@ void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector
   }
 }
 
+/// Along the largest face of all blocks; empty: as those of the system have it.
+std::optional<Eigen::Matrix3d> axes_of(const BlockSystem& system) {
+  const PlacedBlocks* placed = system.exchange().placed();
+  return placed == nullptr ? std::nullopt : std::optional(placed->axes);
+}
+
+std::vector<PlacedVolume> places_of(const BlockSystem& system) {
+  const PlacedBlocks* placed = system.exchange().placed();
+  return placed == nullptr ? places_of(system.blocks()) : placed->volumes;
+}
+
 }  // namespace
 
 std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
@@ -143,9 +153,8 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
 StepContacts::StepContacts(const BlockSystem& system, ContactObserver observer)
     : observer_(std::move(observer)),
       finder_(system.blocks(), system.settings(), system.left_out(), system.away(), observer_,
-              system.share() ? std::optional(system.share()->axes()) : std::nullopt),
-      order_(system.share() ? system.share()->places() : places_of(system.blocks()),
-             system.settings().gravity_at(0.0)) {}
+              axes_of(system)),
+      order_(places_of(system), system.settings().gravity_at(0.0)) {}
 
 std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockSystem& system,
                                                                     const RunState& state,
@@ -187,7 +196,7 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   const std::vector<NearPair> near = finder_.near_pairs(state.states, motion, state.pairs);
   std::vector<std::shared_ptr<const KeptContacts>> kept(near.size());
   if (step > 0.0) kept = this->kept(system, state, near);
-  if (system.share() != nullptr) drop_unknown_elsewhere(system, near, kept);
+  system.exchange().agree_on_kept(system, near, kept);
   std::vector<PairContacts> known_contacts(near.size());
   KnownContacts known(near.size(), nullptr);
   for (std::size_t n = 0; n < near.size(); ++n) {
@@ -335,13 +344,8 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
           as_found(finder_, state, {found[n].blocks, found[n].reach}, laws[n], found[n].contacts));
     }
   }
-  if (system.share() != nullptr) {
-    const auto law = [&system](const PairKey& blocks) { return law_of(system, blocks); };
-    for (PairRecipe& recipe : border_.exchange(system, state, recipes, law))
-      recipes.push_back(std::move(recipe));
-    std::sort(recipes.begin(), recipes.end(),
-              [](const PairRecipe& x, const PairRecipe& y) { return x.blocks < y.blocks; });
-  }
+  system.exchange().add_recipes_of_others(
+      system, state, [&system](const PairKey& blocks) { return law_of(system, blocks); }, recipes);
   std::vector<std::optional<ContactPair>> assembled(recipes.size());
   parallel_for(settings.threads, recipes.size(),
                [&](std::size_t n) { assembled[n] = make_pair(system, state, std::move(recipes[n])); });

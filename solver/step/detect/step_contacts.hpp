@@ -12,9 +12,9 @@
 #include "solver/contact/internal_edges.hpp"
 #include "solver/contact/reference_order.hpp"
 #include "solver/contact/surface_continuation.hpp"
-#include "solver/shared/border_pairs.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
+#include "solver/step/detect/pair_recipe.hpp"
 
 namespace ashlar {
 
@@ -38,11 +38,9 @@ class StepContacts {
   /// All contacts at the present state. @param step s, for the search distance of moving blocks; 0: in an iteration
   /// of a static analysis
   [[nodiscard]] std::vector<FoundContacts> detect(const BlockSystem& system, RunState& state, double step);
-  /// Contact pairs of a list, then ties. With several ranks those of own blocks; collective then.
+  /// Contact pairs of a list, then ties. With several processes those of own blocks; collective then.
   [[nodiscard]] std::vector<ContactPair> pairs(const BlockSystem& system, RunState& state,
                                                const std::vector<FoundContacts>& found, PairUse use);
-  /// To be called on all ranks when ghosts have changed or a state was restored.
-  void forget_border_pairs() { border_.forget(); }
   /// Blocks that would pass through each other on the way to new states, ordered by time.
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const BlockSystem& system, RunState& state,
                                                         const std::vector<BlockState>& after,
@@ -76,7 +74,6 @@ class StepContacts {
   ContactFinder finder_;
   ReferenceOrder order_;
   std::optional<Retractions> retractions_;  ///< of the step
-  BorderPairs border_;
 };
 
 }  // namespace ashlar

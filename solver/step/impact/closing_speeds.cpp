@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 
 namespace ashlar {
 namespace {
@@ -45,7 +45,7 @@ ClosingSpeeds::ClosingSpeeds(const BlockSystem& system, const std::vector<Contac
         fastest_[at(block)] = std::max(fastest_[at(block)], -velocities(0, static_cast<Eigen::Index>(k)));
     }
   }
-  if (system.share() != nullptr) fastest_ = max_of_ranks(system.share()->ranks(), fastest_);
+  fastest_ = most_of_run(system, fastest_);
 }
 
 double ClosingSpeeds::fastest_of(const ContactPair& pair) const {

@@ -7,19 +7,14 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
-#include "solver/shared/agreement.hpp"
-#include "solver/shared/ghosts.hpp"
+#include "solver/state/agreement.hpp"
 
 namespace ashlar {
 namespace {
 
-/// Pairs of all ranks in the order of a step: contacts, then ties, each by blocks. @param own in this order
-std::vector<TouchingPoints> pairs_of_run(const BlockSystem& system, std::vector<TouchingPoints> own) {
-  if (system.share() == nullptr) return own;
-  std::vector<TouchingPoints> all;
-  for (std::vector<TouchingPoints>& of_rank : values_of_ranks(system.share()->ranks(), own))
-    for (TouchingPoints& pair : of_rank) all.push_back(std::move(pair));
+/// Pairs of all processes in the order of a step: contacts, then ties, each by blocks. @param own in this order
+std::vector<TouchingPoints> pairs_of_run(const BlockSystem& system, const std::vector<TouchingPoints>& own) {
+  std::vector<TouchingPoints> all = joined_of_run(system, own);
   std::sort(all.begin(), all.end(), [](const TouchingPoints& x, const TouchingPoints& y) {
     return std::tie(x.tied, x.blocks) < std::tie(y.tied, y.blocks);
   });
@@ -86,7 +81,7 @@ bool ImpactOfBlocks::find() {
     make_points(indices[k], touching[k]);
     struck.push_back(std::move(touching[k]));
   }
-  for (const TouchingPoints& pair : pairs_of_run(system_, std::move(struck))) add(pair);
+  for (const TouchingPoints& pair : pairs_of_run(system_, struck)) add(pair);
   return !points_.empty();
 }
 
@@ -125,7 +120,7 @@ void ImpactOfBlocks::apply() {
     if (own_points_[k]) of_supports -= result.impulses[k].dot(driven_[k]);
   state_.ledger.loads_did(of_supports);
   state_.ledger.damping_took(lost + of_supports);
-  if (system_.share() != nullptr) update_ghosts(system_, state_);
+  tell_states(system_, state_);
 }
 
 std::size_t ImpactOfBlocks::group_of(const TouchingPoints& touching) {
@@ -147,12 +142,7 @@ void ImpactOfBlocks::note_bonds() {
       break;
     }
   }
-  const auto unite = [this](const std::vector<BlockPair>& of_rank) {
-    for (const BlockPair& bond : of_rank) bonded_.unite(bond[0], bond[1]);
-  };
-  if (system_.share() == nullptr) return unite(bonds);
-  for (const std::vector<BlockPair>& of_rank : values_of_ranks(system_.share()->ranks(), bonds))
-    unite(of_rank);
+  for (const BlockPair& bond : joined_of_run(system_, bonds)) bonded_.unite(bond[0], bond[1]);
 }
 
 bool ImpactOfBlocks::note_touching(std::size_t n) {

@@ -1,6 +1,6 @@
 // An impact at one moment: the points of blocks that touch each other, directly or not, and their impulses.
 //
-// Ranks gather the points of all blocks that take part in it, each from the owner of its pair, and solve for all impulses
+// Processes gather the points of all blocks that take part in it, each from the owner of its pair, and solve for all impulses
 // (notes/ranks.md).
 #pragma once
 
@@ -29,7 +29,7 @@ struct TouchingPoints {
   std::vector<Eigen::Vector3d> driven = {};    ///< velocity of each by moving supports, m/s
 };
 
-/// Functions are collective for the ranks of a run.
+/// Functions are collective for the processes of a run.
 class ImpactOfBlocks {
  public:
   /// @param pairs of the step; used as long as this
@@ -85,7 +85,7 @@ class ImpactOfBlocks {
   std::vector<int> sizes_;
   std::vector<ImpactPoint> points_;
   std::vector<Eigen::Vector3d> driven_;  ///< velocity of each point by moving supports, m/s
-  std::vector<bool> own_points_;         ///< of pairs that this rank owns
+  std::vector<bool> own_points_;         ///< of pairs that this process owns
 };
 
 }  // namespace ashlar

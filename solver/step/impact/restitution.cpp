@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "geometry/index.hpp"
-#include "solver/shared/agreement.hpp"
+#include "solver/state/agreement.hpp"
 #include "solver/step/impact/closing_speeds.hpp"
 #include "solver/step/impact/impact_of_blocks.hpp"
 

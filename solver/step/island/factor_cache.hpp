@@ -8,7 +8,7 @@
 
 namespace ashlar {
 
-/// Of the factor that BlockShare::step_solver() holds, for later steps. The same on all ranks, but for the bodies.
+/// Of the factor that BlockShare::step_solver() holds, for later steps. The same on all processes, but for the bodies.
 struct SharedFactor {
   std::vector<int> bodies;  ///< own ones of the joined island
   std::vector<int> sizes;   ///< equations of each

@@ -21,14 +21,14 @@ std::vector<int> places_of(const Island& island, std::size_t blocks) {
 IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies,
                              const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                              const SimulationSettings& settings, IslandSolvers::Entry& solver,
-                             const IslandRanks& ranks)
+                             const IslandSums& sums)
     : island_(island),
       bodies_(bodies),
       pairs_(pairs),
       settings_(settings),
       scheme_(scheme),
       solver_(solver),
-      ranks_(ranks),
+      sums_(sums),
       bolts_(island, bodies, island.bolts.empty() ? std::vector<int>() : places_of(island, bodies.size())) {
   const std::vector<int> place = places_of(island, bodies.size());
   for (const int pair : island.pairs) {
@@ -36,8 +36,8 @@ IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies
     places_.push_back({place[at(pairs[at(pair)].a())], place[at(pairs[at(pair)].b())]});
   }
   std::size_t own_pairs = 0;
-  for (std::size_t k = 0; k < island.pairs.size(); ++k) own_pairs += ranks.owns_pair(k) ? 1 : 0;
-  all_pairs_ = static_cast<std::size_t>(ranks.sum(static_cast<double>(own_pairs)));
+  for (std::size_t k = 0; k < island.pairs.size(); ++k) own_pairs += sums.owns_pair(k) ? 1 : 0;
+  all_pairs_ = static_cast<std::size_t>(sums.sum(static_cast<double>(own_pairs)));
   follow_rigid_bodies();
 }
 
@@ -127,7 +127,7 @@ void IslandProblem::judge(Residual& residual, const std::vector<ForceErrors>& er
   const double tolerance =
       scheme_.is_static() ? settings_.statics.residual_tolerance : settings_.iteration.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
-    if (!ranks_.owns_body(k)) continue;
+    if (!sums_.owns_body(k)) continue;
     BodyStep& body = bodies_[at(island_.bodies[k])];
     const double scale = residual.scales[k];
     const double rounding = body.roundoff_force + errors[k].rounding +
@@ -146,11 +146,11 @@ void IslandProblem::judge(Residual& residual, const std::vector<ForceErrors>& er
     residual.largest_by_force =
         std::max(residual.largest_by_force, finite ? left / scale : residual.relative[k]);
   }
-  if (ranks_.shared()) {
-    const std::vector<double> most = ranks_.largest({residual.largest, residual.largest_by_force});
+  if (sums_.shared()) {
+    const std::vector<double> most = sums_.largest({residual.largest, residual.largest_by_force});
     residual.largest = most[0];
     residual.largest_by_force = most[1];
-    residual.sum = ranks_.sum(residual.sum);
+    residual.sum = sums_.sum(residual.sum);
   }
   recall(residual);
 }

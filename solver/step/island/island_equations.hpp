@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "geometry/index.hpp"
-#include "solver/shared/island_ranks.hpp"
 #include "solver/step/island/island.hpp"
 #include "solver/step/island/island_bolts.hpp"
+#include "solver/step/island/island_sums.hpp"
 
 namespace ashlar {
 
 /// Residual of the equations of motion at a guess.
 struct Residual {
   Eigen::VectorXd force;         ///< N, in the island's equations
-  std::vector<double> relative;  ///< norm on each body over its tolerance; 0 of ghosts
+  std::vector<double> relative;  ///< norm on each body over its tolerance; 0 of neighbours
   double largest = 0.0;          ///< of `relative`; <= 1: converged
   double sum = 0.0;  ///< of `relative`: decreases from guess to guess where the largest does not yet
   double largest_by_force = 0.0;  ///< largest norm on a body over the largest force on it
@@ -51,7 +51,7 @@ class IslandProblem {
  public:
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
                 const TimeScheme& scheme, const SimulationSettings& settings, IslandSolvers::Entry& solver,
-                const IslandRanks& ranks = IslandRanks::one_rank());
+                const IslandSums& sums = IslandSums::of_one_process());
 
   void predict(Predictor guess);
   /// Elastic and contact responses at the present guess.
@@ -68,7 +68,7 @@ class IslandProblem {
   void apply(const Eigen::VectorXd& change, double share);
   /// Inner product of vectors in the island's equations.
   [[nodiscard]] double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
-    return ranks_.dot(x, y);
+    return sums_.dot(x, y);
   }
   /// A change in the island's equations as one of the unknowns. @return by body
   [[nodiscard]] std::vector<Eigen::VectorXd> changes(const Eigen::VectorXd& change) const;
@@ -96,9 +96,9 @@ class IslandProblem {
   /// Worker threads for loops over pairs; results are independent of their number.
   [[nodiscard]] int threads() const;
 
-  /// The part of this rank in an island that several ranks share.
-  [[nodiscard]] const IslandRanks& ranks() const { return ranks_; }
-  /// Number of pairs of all ranks.
+  /// The part of this process in an island that several processes share.
+  [[nodiscard]] const IslandSums& sums() const { return sums_; }
+  /// Number of pairs of all processes.
   [[nodiscard]] std::size_t all_pairs() const { return all_pairs_; }
   [[nodiscard]] std::size_t pairs() const { return island_.pairs.size(); }
   [[nodiscard]] const ContactPair& pair(std::size_t k) const;
@@ -140,7 +140,7 @@ class IslandProblem {
   const SimulationSettings& settings_;
   const TimeScheme& scheme_;
   IslandSolvers::Entry& solver_;
-  const IslandRanks& ranks_;
+  const IslandSums& sums_;
   std::size_t all_pairs_ = 0;
   /// State at which the rows of a pair were updated.
   struct Followed {

@@ -106,7 +106,7 @@ bool IslandTangent::products_pay() const {
   double product = 0.0;
   double unable = 0.0;  // bodies whose tangent is not known as a product
   for (std::size_t k = 0; k < problem_.bodies(); ++k) {
-    if (!problem_.ranks().owns_body(k)) continue;
+    if (!problem_.sums().owns_body(k)) continue;
     const BlockModel& model = *problem_.body(k).model;
     if (!model.tangent_turns()) unable += 1.0;
     const auto n = static_cast<double>(model.unknowns());
@@ -114,7 +114,7 @@ bool IslandTangent::products_pay() const {
     product += n * n;
   }
   for (std::size_t k = 0; k < problem_.pairs(); ++k) {
-    if (!problem_.ranks().owns_pair(k)) continue;
+    if (!problem_.sums().owns_pair(k)) continue;
     const auto unknowns = [&](int place) {
       return place < 0 ? 0.0 : static_cast<double>(problem_.body(at(place)).model->unknowns());
     };
@@ -124,7 +124,7 @@ bool IslandTangent::products_pay() const {
     to_assemble += points * 2.0 / 3.0 * (a * a + a * b + b * b);
     product += points * 2.0 * (a + b);
   }
-  const std::vector<double> all = problem_.ranks().sum({to_assemble, product, unable});
+  const std::vector<double> all = problem_.sums().sum({to_assemble, product, unable});
   return all[2] == 0.0 && all[0] > problem_.settings().iteration.old_factor_iterations * all[1];
 }
 
@@ -208,15 +208,15 @@ std::optional<Eigen::VectorXd> IslandTangent::solve_with_old(const Eigen::Vector
       gmres(preconditioned, solver_.factor->solve(right_side, false), settings.krylov_tolerance,
             settings.old_factor_iterations, inner_products());
   if (!found.converged) return std::nullopt;
-  const bool has_bodies = problem_.ranks().shared() || right_side.size() > 0;
+  const bool has_bodies = problem_.sums().shared() || right_side.size() > 0;
   if (has_bodies && !(problem_.dot(right_side, found.x) > 0.0)) return std::nullopt;
   return found.x;
 }
 
 InnerProducts IslandTangent::inner_products() const {
-  if (!problem_.ranks().shared()) return {};
+  if (!problem_.sums().shared()) return {};
   return [this](const Eigen::Ref<const Eigen::MatrixXd>& columns, const Eigen::VectorXd& x) {
-    return problem_.ranks().dot(columns, x);
+    return problem_.sums().dot(columns, x);
   };
 }
 
@@ -231,7 +231,7 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   if (coupled)
     couplings = products_of(
         [&](std::size_t k) { return problem_.pair(k).rows().couplings(problem_.responses()[k]); });
-  if (!problem_.ranks().any(!couplings.empty())) return solver_.factor->solve(right_side);
+  if (!problem_.sums().any(!couplings.empty())) return solver_.factor->solve(right_side);
   const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
     add_pairs(couplings, false, x, force);

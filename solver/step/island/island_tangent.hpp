@@ -47,10 +47,10 @@ class IslandTangent {
   void assemble(bool positive);
   /// Factorises the assembled matrix. @param kept for later steps
   [[nodiscard]] FactorStatus factorize_assembled(bool kept);
-  /// True if the products of one solution with an old factor cost less than assembly of the matrix, on all ranks
+  /// True if the products of one solution with an old factor cost less than assembly of the matrix, on all processes
   /// together.
   [[nodiscard]] bool products_pay() const;
-  /// Of vectors that several ranks share; empty: one rank has all.
+  /// Of vectors that several processes share; empty: one process has all.
   [[nodiscard]] InnerProducts inner_products() const;
   /// w s (1 + k), weight of the stiffness of blocks.
   [[nodiscard]] double weight_of_blocks() const;

@@ -13,10 +13,10 @@ namespace ashlar {
 class Augmentation {
  public:
   /// Stiffens springs as the balanced forces require, or lowers multipliers if no spring is too soft.
-  /// @param problem the same in each call. @return true if anything has changed, on any rank that shares the island
+  /// @param problem the same in each call. @return true if anything has changed, on any process that shares the island
   bool adjust(IslandProblem& problem) {
-    const IslandRanks& ranks = problem.ranks();
-    return ranks.any(stiffen(problem)) || ranks.any(lower_multipliers(problem));
+    const IslandSums& sums = problem.sums();
+    return sums.any(stiffen(problem)) || sums.any(lower_multipliers(problem));
   }
 
  private:

@@ -28,7 +28,7 @@ ContactLine::ContactLine(const IslandProblem& problem, const Eigen::VectorXd& ch
 bool ContactLine::owns_bolt(std::size_t k) const {
   const std::vector<int>& places = problem_.bolts().places(k);
   const auto body = std::find_if(places.begin(), places.end(), [](int place) { return place >= 0; });
-  return body != places.end() && problem_.ranks().owns_body(at(*body));
+  return body != places.end() && problem_.sums().owns_body(at(*body));
 }
 
 double ContactLine::work(double share) const {
@@ -36,7 +36,7 @@ double ContactLine::work(double share) const {
   std::vector<double> by_pair(lines_.size(), 0.0);
   parallel_for(problem_.threads(), lines_.size(), [&](std::size_t k) {
     const auto& [start, way] = lines_[k];
-    if (!problem_.ranks().owns_pair(k)) return;
+    if (!problem_.sums().owns_pair(k)) return;
     const std::vector<PointLaw>& laws = problem_.laws()[k];
     for (std::size_t point = 0; point < laws.size(); ++point) {
       const auto column = static_cast<Eigen::Index>(point);
@@ -51,7 +51,7 @@ double ContactLine::work(double share) const {
     of_bolts -=
         problem_.bolts().bolt(k).force(bolts_[k].start + share * bolts_[k].way, averaged).dot(bolts_[k].way);
   }
-  return problem_.ranks().sum(std::accumulate(by_pair.begin(), by_pair.end(), of_bolts));
+  return problem_.sums().sum(std::accumulate(by_pair.begin(), by_pair.end(), of_bolts));
 }
 
 }  // namespace ashlar

@@ -31,7 +31,7 @@ class ContactLine {
     Eigen::VectorXd way;
   };
 
-  /// True on one of the ranks that share the island: each bolt counts once.
+  /// True on one of the processes that share the island: each bolt counts once.
   [[nodiscard]] bool owns_bolt(std::size_t k) const;
 
   const IslandProblem& problem_;

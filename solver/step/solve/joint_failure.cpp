@@ -61,8 +61,8 @@ bool JointFailure::break_joints(IslandProblem& problem) const {
   for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
     for (std::size_t k = 0; k < strengths_[pair].size(); ++k) most = std::max(most, excess(pair, k));
   }
-  most = problem.ranks().largest(most);
-  if (!(most > 0.0)) return problem.ranks().any(open_joints(problem));
+  most = problem.sums().largest(most);
+  if (!(most > 0.0)) return problem.sums().any(open_joints(problem));
   for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
     for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
       if (excess(pair, k) < 0.5 * most) continue;

@@ -88,7 +88,7 @@ class OpenClose {
   /// Updates rows of contact points to where they act. @return true if any has changed
   bool follow() {
     const bool here = !problem_.scheme().is_static() && problem_.follow_contacts(settings_.followed_gap());
-    return followed_ = problem_.ranks().any(here);
+    return followed_ = problem_.sums().any(here);
   }
 
   /// Residual of the present guess, evaluated unless it is known.
@@ -129,7 +129,7 @@ class OpenClose {
       Residual residual = next_residual();
       // From rest, the residual of the initial guess is within the last iteration's bound of rounding errors, which
       // is wide.
-      const bool no_bodies = residual.force.size() == 0 && !problem_.ranks().shared();
+      const bool no_bodies = residual.force.size() == 0 && !problem_.sums().shared();
       if (residual.converged() &&
           (no_bodies || !(problem_.scheme().is_static() && result_.iterations == 1))) {
         known_residual_ = std::move(residual);
@@ -144,7 +144,7 @@ class OpenClose {
         return Outcome::stalled;
       note_guess(residual, closing);
       std::vector<ContactState> states = problem_.states();
-      const auto [as_before, repeated] = compare_states(problem_.ranks(), states, seen);
+      const auto [as_before, repeated] = compare_states(problem_.sums(), states, seen);
       if (!as_before && repeated) {
         note_changes(seen.back(), states);
         return Outcome::stalled;
@@ -251,15 +251,15 @@ class OpenClose {
 
   /// Inner product of values of all points.
   [[nodiscard]] double product_of_bounds(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
-    if (!problem_.ranks().shared()) return x.dot(y);
+    if (!problem_.sums().shared()) return x.dot(y);
     double sum = 0.0;
     Eigen::Index start = 0;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       const auto points = static_cast<Eigen::Index>(problem_.laws()[pair].size());
-      if (problem_.ranks().owns_pair(pair)) sum += x.segment(start, points).dot(y.segment(start, points));
+      if (problem_.sums().owns_pair(pair)) sum += x.segment(start, points).dot(y.segment(start, points));
       start += points;
     }
-    return problem_.ranks().sum(sum);
+    return problem_.sums().sum(sum);
   }
 
   /// The minimum with the present bounds held. @param target of Residual::largest

@@ -53,9 +53,9 @@ std::optional<Residual> take_best_predictor(IslandProblem& problem) {
   Residual inertial = residual_of(problem, Predictor::inertial);
   compare(Predictor::inertial, std::move(inertial), problem.set_aside());
   compare(Predictor::at_rest, std::move(at_rest), std::move(evaluated_at_rest));
-  // Ghosts start as their owners choose. With several ranks the choices of all are not compared.
-  problem.ranks().update_ghosts(own);
-  if (problem.ranks().shared() ||
+  // Neighbours start as their owners choose. With several processes the choices of all are not compared.
+  problem.sums().update_neighbours(own);
+  if (problem.sums().shared() ||
       std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) != kinds.end()) {
     problem.set_guess(own);
     problem.respond();

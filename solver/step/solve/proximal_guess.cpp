@@ -124,7 +124,7 @@ class PairSplitting {
                                   }),
                                   right_side);
       const Eigen::VectorXd change = problem_.solver().factor->solve(right_side, false);
-      if (problem_.ranks().any(!change.allFinite())) return;
+      if (problem_.sums().any(!change.allFinite())) return;
       const std::vector<Eigen::VectorXd> changes = problem_.changes(change);
       parallel_for(problem_.threads(), pairs_.size(),
                    [&](std::size_t k) { pairs_[k].places = pairs_[k].first + problem_.motion(k, changes); });
@@ -140,7 +140,7 @@ class PairSplitting {
     }
   }
 
-  /// True if a change was found; without bodies of this rank it is empty.
+  /// True if a change was found; without bodies of this process it is empty.
   [[nodiscard]] bool found() const { return least_ < std::numeric_limits<double>::infinity(); }
   [[nodiscard]] const Eigen::VectorXd& best() const { return best_; }
   [[nodiscard]] const std::vector<Eigen::VectorXd>& first_guess() const { return first_guess_; }
@@ -239,13 +239,13 @@ class PairSplitting {
     }
     double largest = 0.0;
     for (std::size_t k = 0; k < problem_.bodies(); ++k) {
-      if (!problem_.ranks().owns_body(k)) continue;
+      if (!problem_.sums().owns_body(k)) continue;
       const double part = left.segment(problem_.solver().matrix.offset(static_cast<int>(k)),
                                        problem_.body(k).model->freedom())
                               .norm();
       if (!(part <= largest * scales[k])) largest = part / scales[k];
     }
-    return problem_.ranks().largest(largest);
+    return problem_.sums().largest(largest);
   }
 
   const IslandProblem& problem_;

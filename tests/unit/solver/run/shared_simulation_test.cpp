@@ -236,7 +236,7 @@ TEST(SharedSimulation, TheFirstRankHasTheResultsOfTheRun) {
   (void)run_shared(scene, owners_of(scene, 2), 2, [&](Simulation& simulation) {
     ASSERT_TRUE(advance(simulation, 20));
     simulation.gather_results();
-    if (simulation.system().share()->ranks().own() != 0) return;
+    if (!simulation.system().exchange().first()) return;
     const End alone = run_alone(scene, 20);
     EXPECT_EQ(simulation.contacts().size(), alone.contacts.size());
     EXPECT_EQ(simulation.unknowns(), alone.totals.unknowns);

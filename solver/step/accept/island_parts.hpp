@@ -1,5 +1,5 @@
-// Islands of a whole run as one rank sees them: what is summed or decided over the blocks of an island is put together
-// over the ranks. Islands are named by their lowest blocks (shared_island.hpp).
+// Islands of a whole run as one process sees them: what is summed or decided over the blocks of an island is put together
+// over the processes. Islands are named by their lowest blocks (shared_island.hpp).
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@
 
 namespace ashlar {
 
-/// The part of this rank in an island; without other ranks all of it.
+/// The part of this process in an island; without other processes all of it.
 struct IslandPart {
   int first = -1;                 ///< lowest block of the island
-  bool joined = false;            ///< part of the island that ranks share
+  bool joined = false;            ///< part of the island that processes share
   std::vector<int> bodies;        ///< own blocks, increasing
   std::vector<PairKey> contacts;  ///< own pairs, ties left out
-  /// True if only its own blocks, gravity and loads act on the island, as far as this rank knows
+  /// True if only its own blocks, gravity and loads act on the island, as far as this process knows
   bool free = true;
   double depth = 0.0;  ///< largest of contacts as detected, m
 };
@@ -34,18 +34,16 @@ class PartsOfRun {
   /// Indices of the parts of an island.
   [[nodiscard]] std::vector<std::size_t> of_island(const Island& island) const;
 
-  std::vector<IslandPart> parts;  ///< as many on all ranks, in the order of first blocks
+  std::vector<IslandPart> parts;  ///< as many on all processes, in the order of first blocks
 
  private:
   const Island* joined_;      ///< null: none
   std::vector<int> part_of_;  ///< by block; -1: none
 };
 
-/// Sums values over ranks, a column for each part. Collective; no effect without other ranks.
-void sum_of_run(const BlockSystem& system, Eigen::MatrixXd& values);
-[[nodiscard]] SumOverRanks summed_over_ranks(const BlockSystem& system);
+[[nodiscard]] SumOverProcesses summed_over_processes(const BlockSystem& system);
 
-/// Accounts of the pairs of this rank, for IslandFunds; empty without other ranks.
+/// Accounts of the pairs of this process, for IslandFunds; empty without other processes.
 [[nodiscard]] std::optional<SharedAccounts> shared_accounts(const BlockSystem& system);
 
 }  // namespace ashlar

@@ -5,16 +5,11 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/ranks/block_share.hpp"
-#include "solver/shared/shared_bolts.hpp"
-#include "solver/shared/shared_island.hpp"
+#include "solver/state/agreement.hpp"
+#include "solver/step/island/bolts_of_run.hpp"
 
 namespace ashlar {
 namespace {
-
-bool has_other_ranks(const BlockSystem& system) {
-  return system.share() != nullptr && !system.share()->ranks().alone();
-}
 
 std::vector<bool> blocks_of_free_bodies(const BlockSystem& system) {
   std::vector<bool> free(at(system.count()), false);
@@ -62,15 +57,12 @@ PartsOfRun::PartsOfRun(const BlockSystem& system, const std::vector<Island>& isl
   std::map<int, IslandPart> by_first;
   for (const Island& island : islands) {
     std::map<int, int> first;
-    if (&island == joined_) first = first_blocks(system, island, pairs);
+    if (&island == joined_) first = system.exchange().first_blocks(system, island, pairs);
     if (!island.bodies.empty()) add_parts(system, island, first, pairs, in_free_body, by_first);
   }
-  if (has_other_ranks(system)) {
-    std::vector<int> names;
-    for (const auto& [first, part] : by_first) names.push_back(first);
-    for (const std::vector<int>& of_rank : values_of_ranks(system.share()->ranks(), names))
-      for (const int first : of_rank) by_first[first].first = first;
-  }
+  std::vector<int> names;
+  for (const auto& [first, part] : by_first) names.push_back(first);
+  for (const int first : joined_of_run(system, names)) by_first[first].first = first;
   for (auto& [first, part] : by_first) {
     for (const int block : part.bodies) part_of_[at(block)] = static_cast<int>(parts.size());
     parts.push_back(std::move(part));
@@ -85,22 +77,14 @@ std::vector<std::size_t> PartsOfRun::of_island(const Island& island) const {
   return result;
 }
 
-void sum_of_run(const BlockSystem& system, Eigen::MatrixXd& values) {
-  if (!has_other_ranks(system) || values.size() == 0) return;
-  const std::vector<double> sums = sum_of_ranks(
-      system.share()->ranks(), std::vector<double>(values.data(), values.data() + values.size()));
-  std::copy(sums.begin(), sums.end(), values.data());
-}
-
-SumOverRanks summed_over_ranks(const BlockSystem& system) {
+SumOverProcesses summed_over_processes(const BlockSystem& system) {
   return [&system](Eigen::MatrixXd& values) { sum_of_run(system, values); };
 }
 
 std::optional<SharedAccounts> shared_accounts(const BlockSystem& system) {
-  if (!has_other_ranks(system)) return std::nullopt;
-  return SharedAccounts{
-      [&system](const PairKey& blocks) { return system.owns_pair(blocks[0], blocks[1]); },
-      [&system](const std::vector<double>& values) { return sum_of_ranks(system.share()->ranks(), values); }};
+  if (system.exchange().alone()) return std::nullopt;
+  return SharedAccounts{[&system](const PairKey& blocks) { return system.owns_pair(blocks[0], blocks[1]); },
+                        [&system](const std::vector<double>& values) { return sum_of_run(system, values); }};
 }
 
 }  // namespace ashlar

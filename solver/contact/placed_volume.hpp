@@ -1,4 +1,4 @@
-// The placed, undeformed shape of a block, as all ranks know it.
+// The placed, undeformed shape of a block, as all processes of a run know it.
 #pragma once
 
 #include "geometry/triangle_mesh.hpp"
