@@ -82,6 +82,10 @@ class ContactDirection {
   [[nodiscard]] const ExactVector& exact() const;
 
  private:
+  /// The type is complete in one source only.
+  struct ExactDeleter {
+    void operator()(ExactVector* vector) const;
+  };
   enum class Kind { difference, cross, rejection };
   ContactDirection(Kind kind, const Difference& first, const Difference& second);
   template <class N>
@@ -96,8 +100,14 @@ class ContactDirection {
   Difference first_, second_;
   mutable DirectionNumbers numbers_;
   mutable DoubleDouble squared_length_;
-  mutable std::unique_ptr<ExactVector> exact_;
+  mutable std::unique_ptr<ExactVector, ExactDeleter> exact_;
 };
+
+/// a - b in the numbers of a rung.
+template <class N>
+[[nodiscard]] NumberVector<N> subtract_points(const Vector3& a, const Vector3& b) {
+  return {N::difference(a[0], b[0]), N::difference(a[1], b[1]), N::difference(a[2], b[2])};
+}
 
 /// Value of a difference in the numbers of a rung (N::difference of two doubles).
 template <class N>
@@ -111,6 +121,19 @@ template <class N>
   if (d.plus2 == nullptr) return first;
   const NumberVector<N> second = subtract(*d.plus2, d.minus2);
   return {first.x + second.x, first.y + second.y, first.z + second.z};
+}
+
+template <class N>
+NumberVector<N> ContactDirection::evaluate() const {
+  NumberVector<N> w = ashlar::evaluate<N>(first_);
+  if (kind_ != Kind::difference) {
+    const NumberVector<N> e = ashlar::evaluate<N>(second_);
+    w = ashlar::cross(w, e);
+    if (kind_ == Kind::rejection) w = ashlar::cross(e, w);
+  }
+  if (!reversed_) return w;
+  const N zero(0.0);
+  return {zero - w.x, zero - w.y, zero - w.z};
 }
 
 }  // namespace ashlar

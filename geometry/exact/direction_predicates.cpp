@@ -1,5 +1,5 @@
-// One source for three headers: directions, predicates and constructions share CGAL's number types, which no
-// header exposes.
+// The exact rung of directions, predicates and constructions is here too: it is in CGAL's numbers, which no header
+// exposes.
 #include "geometry/exact/direction_predicates.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -8,10 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
-#include "geometry/exact/direction_constructions.hpp"
+#include "geometry/exact/exact_constructions.hpp"
 #include "geometry/exact/exact_rounding.hpp"
 
 namespace ashlar {
@@ -45,11 +44,6 @@ NumberVector<N> sum(const NumberVector<N>& a, const NumberVector<N>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-template <class N>
-NumberVector<N> subtract_points(const Vector3& a, const Vector3& b) {
-  return {N::difference(a[0], b[0]), N::difference(a[1], b[1]), N::difference(a[2], b[2])};
-}
-
 // Evaluates `polynomial` (a generic function of the vectors of the directions) rung by rung. `degree` is that
 // in the coordinates.
 template <class Polynomial, class... Directions>
@@ -66,148 +60,16 @@ int decide(PredicateLadder& ladder, int degree, const Polynomial& polynomial, co
   return sign_of(polynomial(w.exact().value...));
 }
 
-template <class N>
-struct Fraction {
-  N numerator, denominator;
-};
-
-CGAL::Gmpq rational(const Fraction<Exact>& f) {
-  return CGAL::Gmpq(static_cast<CGAL::Gmpq>(f.numerator) / static_cast<CGAL::Gmpq>(f.denominator));
-}
-
-// Rounds three components: `floating(i)` gives one as an optional DoubleDouble and is asked where `usable`,
-// `exact(i)` gives the nearest double and is asked where that leaves a doubt.
-template <class Floating, class ExactOf>
-Vector3 round_components(PredicateLadder& ladder, bool usable, const Floating& floating,
-                         const ExactOf& exact) {
-  Vector3 result;
-  for (int i = 0; i < 3; ++i) {
-    const std::optional<double> value = usable ? rounded(floating(i)) : std::nullopt;
-    ++(value ? ladder.counts.filter : ladder.counts.exact);
-    result[i] = value ? *value : exact(i);
-  }
-  return result;
-}
-
-template <class N>
-const N& component(const NumberVector<N>& v, int i) {
-  return i == 0 ? v.x : i == 1 ? v.y : v.z;
-}
-
-// The point a + (b - a) s / (s - t), rounded; `heights` (a generic function of w) gives s and t.
-template <class HeightsOf>
-Vector3 round_between(PredicateLadder& ladder, const ContactDirection& w, const Vector3& a, const Vector3& b,
-                      const HeightsOf& heights) {
-  std::optional<DoubleDouble> ratio;
-  if (ladder.floating) {
-    const auto [s, t] = heights(w.double_double());
-    ratio = quotient(s, s - t);
-  }
-  return round_components(
-      ladder, ratio.has_value(),
-      [&](int i) { return DoubleDouble(a[i]) + DoubleDouble::difference(b[i], a[i]) * *ratio; },
-      [&](int i) {
-        const auto [s, t] = heights(w.exact().value);
-        const Exact width = s - t;
-        const Exact numerator = Exact(a[i]) * width + Exact::difference(b[i], a[i]) * s;
-        return round_to_nearest(rational({numerator, width}).mpq());
-      });
-}
-
 }  // namespace
 
 // ---- contact_direction.hpp -----------------------------------------------------------------------------------------
 
-template <class N>
-NumberVector<N> ContactDirection::evaluate() const {
-  NumberVector<N> w = ashlar::evaluate<N>(first_);
-  if (kind_ != Kind::difference) {
-    const NumberVector<N> e = ashlar::evaluate<N>(second_);
-    w = ashlar::cross(w, e);
-    if (kind_ == Kind::rejection) w = ashlar::cross(e, w);
-  }
-  if (!reversed_) return w;
-  const N zero(0.0);
-  return {zero - w.x, zero - w.y, zero - w.z};
-}
-
-ContactDirection::ContactDirection() = default;
-ContactDirection::~ContactDirection() = default;
-ContactDirection::ContactDirection(ContactDirection&&) noexcept = default;
-ContactDirection& ContactDirection::operator=(ContactDirection&&) noexcept = default;
-
-ContactDirection::ContactDirection(Kind kind, const Difference& first, const Difference& second)
-    : kind_(kind), first_(first), second_(second) {
-  numbers_.tracked = evaluate<TrackedNumber>();
-  set_bound();
-}
-
-void ContactDirection::set_bound() {
-  const auto largest = [&](auto part) {
-    return std::max({part(numbers_.tracked.x), part(numbers_.tracked.y), part(numbers_.tracked.z)});
-  };
-  const double error = largest([](const TrackedNumber& n) { return n.error; });
-  const double value = largest([](const TrackedNumber& n) { return std::abs(n.value); });
-  numbers_.bound = (error + 8.0 * TrackedNumber::unit_roundoff * value) * (1.0 + 0x1p-20);
-}
-
-ContactDirection ContactDirection::along(const Difference& d) {
-  return {Kind::difference, d, {}};
-}
-ContactDirection ContactDirection::cross(const Difference& e1, const Difference& e2) {
-  return {Kind::cross, e1, e2};
-}
-ContactDirection ContactDirection::cross(const Difference& e1, const Difference& e2,
-                                         const DirectionNumbers& numbers) {
-  ContactDirection w;
-  w.kind_ = Kind::cross;
-  w.first_ = e1;
-  w.second_ = e2;
-  w.numbers_ = numbers;
-  w.has_double_double_ = true;
-  return w;
-}
-ContactDirection ContactDirection::rejection(const Difference& d, const Difference& e) {
-  return {Kind::rejection, d, e};
-}
-
-ContactDirection ContactDirection::copy() const {
-  ContactDirection result;
-  result.kind_ = kind_;
-  result.reversed_ = reversed_;
-  result.first_ = first_;
-  result.second_ = second_;
-  result.numbers_ = numbers_;
-  result.has_double_double_ = has_double_double_;
-  return result;
-}
-
-void ContactDirection::reverse() {
-  reversed_ = !reversed_;
-  exact_.reset();
-  if (has_double_double_) {
-    NumberVector<DoubleDouble>& d = numbers_.double_double;
-    d = {-d.x, -d.y, -d.z};
-  }
-  for (TrackedNumber* n : {&numbers_.tracked.x, &numbers_.tracked.y, &numbers_.tracked.z})
-    n->value = -n->value;
-}
-
-void ContactDirection::compute_double_double() const {
-  numbers_.double_double = evaluate<DoubleDouble>();
-  has_double_double_ = true;
-}
-
-const DoubleDouble& ContactDirection::squared_length() const {
-  if (!has_squared_length_) {
-    squared_length_ = dot(double_double(), double_double());
-    has_squared_length_ = true;
-  }
-  return squared_length_;
+void ContactDirection::ExactDeleter::operator()(ExactVector* vector) const {
+  delete vector;
 }
 
 const ContactDirection::ExactVector& ContactDirection::exact() const {
-  if (!exact_) exact_ = std::make_unique<ExactVector>(ExactVector{evaluate<Exact>()});
+  if (!exact_) exact_.reset(new ExactVector{evaluate<Exact>()});
   return *exact_;
 }
 
@@ -399,85 +261,58 @@ bool same_direction(const ContactDirection& v, const ContactDirection& w, Predic
          component([](const auto& c) { return c.z; }) == 0;
 }
 
-// ---- direction_constructions.hpp -----------------------------------------------------------------------------------
+// ---- exact_constructions.hpp ---------------------------------------------------------------------------------------
 
-ContactHeight::ContactHeight(const ContactDirection& w, const Difference& d, PredicateLadder& ladder)
-    : w_(w), d_(d), ladder_(ladder) {
-  if (!ladder.floating) return;
-  height_ = dot(w.double_double(), evaluate<DoubleDouble>(d));
-  if (const auto ratio = quotient(height_, w.squared_length())) {
-    ratio_ = *ratio;
-    has_ratio_ = true;
-  }
+namespace {
+
+CGAL::Gmpq quotient_of(const Exact& numerator, const Exact& denominator) {
+  return CGAL::Gmpq(static_cast<CGAL::Gmpq>(numerator) / static_cast<CGAL::Gmpq>(denominator));
 }
 
-double ContactHeight::squared() const {
-  if (has_ratio_)
-    if (const auto value = rounded(height_ * ratio_)) {
-      ++ladder_.counts.filter;
-      return *value;
-    }
-  ++ladder_.counts.exact;
-  const NumberVector<Exact>& w = w_.exact().value;
-  const Exact height = dot(w, evaluate<Exact>(d_));
-  return round_to_nearest(rational({height * height, dot(w, w)}).mpq());
+template <class HeightsOf>
+double rounded_point_between(const ContactDirection& w, double a, double b, const HeightsOf& heights) {
+  const auto [s, t] = heights(w.exact().value);
+  const Exact width = s - t;
+  const Exact numerator = Exact(a) * width + Exact::difference(b, a) * s;
+  return round_to_nearest(quotient_of(numerator, width).mpq());
 }
 
-double ContactHeight::length() const {
-  if (has_ratio_)
-    if (const auto root = square_root(height_ * ratio_))
-      if (const auto value = rounded(*root)) {
-        ++ladder_.counts.filter;
-        return *value;
-      }
-  ++ladder_.counts.exact;
-  const NumberVector<Exact>& w = w_.exact().value;
-  const Exact height = dot(w, evaluate<Exact>(d_));
-  return round_square_root(rational({height * height, dot(w, w)}).mpq());
+}  // namespace
+
+double exact_squared_height(const ContactDirection& w, const Difference& d) {
+  const NumberVector<Exact>& v = w.exact().value;
+  const Exact height = dot(v, evaluate<Exact>(d));
+  return round_to_nearest(quotient_of(height * height, dot(v, v)).mpq());
 }
 
-Vector3 ContactHeight::shifted(const Vector3* x, int sign) const {
-  return round_components(
-      ladder_, has_ratio_,
-      [&](int i) {
-        const DoubleDouble step = component(w_.double_double(), i) * (sign < 0 ? -ratio_ : ratio_);
-        return x != nullptr ? DoubleDouble((*x)[i]) + step : step;
-      },
-      [&](int i) {
-        const NumberVector<Exact>& w = w_.exact().value;
-        const Exact squared_length = dot(w, w);
-        Exact numerator = component(w, i) * dot(w, evaluate<Exact>(d_)) * Exact(sign);
-        if (x != nullptr) numerator = numerator + Exact((*x)[i]) * squared_length;
-        return round_to_nearest(rational({numerator, squared_length}).mpq());
-      });
+double exact_height(const ContactDirection& w, const Difference& d) {
+  const NumberVector<Exact>& v = w.exact().value;
+  const Exact height = dot(v, evaluate<Exact>(d));
+  return round_square_root(quotient_of(height * height, dot(v, v)).mpq());
 }
 
-Vector3 unit_vector(const ContactDirection& w, PredicateLadder& ladder) {
-  std::optional<DoubleDouble> inverse;
-  if (ladder.floating)
-    if (const auto length = square_root(w.squared_length())) inverse = quotient(DoubleDouble(1.0), *length);
-  return round_components(
-      ladder, inverse.has_value(), [&](int i) { return component(w.double_double(), i) * *inverse; },
-      [&](int i) {
-        const NumberVector<Exact>& v = w.exact().value;
-        const Exact& own = component(v, i);
-        return sign_of(own) * round_square_root(rational({own * own, dot(v, v)}).mpq());
-      });
+double exact_shifted(const ContactDirection& w, const Difference& d, const Vector3* x, int sign, int i) {
+  const NumberVector<Exact>& v = w.exact().value;
+  const Exact squared_length = dot(v, v);
+  Exact numerator = component(v, i) * dot(v, evaluate<Exact>(d)) * Exact(sign);
+  if (x != nullptr) numerator = numerator + Exact((*x)[i]) * squared_length;
+  return round_to_nearest(quotient_of(numerator, squared_length).mpq());
 }
 
-Vector3 crossing_point(const ContactDirection& w, const Vector3& a, const Vector3& b, const Vector3& c,
-                       const Vector3& d, PredicateLadder& ladder) {
-  return round_between(ladder, w, a, b, [&]<class N>(const NumberVector<N>& v) {
-    const NumberVector<N> across = cross(v, subtract_points<N>(d, c));
-    return std::pair<N, N>(dot(across, subtract_points<N>(a, c)), dot(across, subtract_points<N>(b, c)));
-  });
+double exact_unit_component(const ContactDirection& w, int i) {
+  const NumberVector<Exact>& v = w.exact().value;
+  const Exact& own = component(v, i);
+  return sign_of(own) * round_square_root(quotient_of(own * own, dot(v, v)).mpq());
 }
 
-Vector3 plane_point(const ContactDirection& w, const Vector3& a, const Vector3& b, const Vector3& c,
-                    PredicateLadder& ladder) {
-  return round_between(ladder, w, a, b, [&]<class N>(const NumberVector<N>& v) {
-    return std::pair<N, N>(dot(v, subtract_points<N>(a, c)), dot(v, subtract_points<N>(b, c)));
-  });
+double exact_point_between(const ContactDirection& w, const Vector3& a, const Vector3& b,
+                           const HeightsOverLine& heights, int i) {
+  return rounded_point_between(w, a[i], b[i], heights);
+}
+
+double exact_point_between(const ContactDirection& w, const Vector3& a, const Vector3& b,
+                           const HeightsOverPlane& heights, int i) {
+  return rounded_point_between(w, a[i], b[i], heights);
 }
 
 }  // namespace ashlar

@@ -29,4 +29,10 @@ template <class N>
   return {a.x * s, a.y * s, a.z * s};
 }
 
+/// x, y or z. @param i 0, 1 or 2
+template <class N>
+[[nodiscard]] const N& component(const NumberVector<N>& v, int i) {
+  return i == 0 ? v.x : i == 1 ? v.y : v.z;
+}
+
 }  // namespace ashlar

@@ -41,10 +41,6 @@ using RationalVector = NumberVector<Rational>;
   return sgn(a.x) == 0 && sgn(a.y) == 0 && sgn(a.z) == 0;
 }
 
-[[nodiscard]] inline const Rational& component(const RationalVector& p, int i) {
-  return i == 0 ? p.x : i == 1 ? p.y : p.z;
-}
-
 /// Every coordinate correctly rounded.
 [[nodiscard]] inline Vector3 round_to_nearest(const RationalVector& a) {
   return {round_to_nearest(a.x.get_mpq_t()), round_to_nearest(a.y.get_mpq_t()),

@@ -231,73 +231,113 @@ MeanLimit mean_limit(const PointLaw& law, double trial, double friction, double 
   return {friction + work / slip, left, -fall / (1.0 - fall), 1.0 / (1.0 - fall), 0.0};
 }
 
+/// Mean normal force over a step, and the bound of the mean shear force that follows from it.
+struct MeanBounds {
+  SoftenedNormal normal;
+  MeanLimit limit;
+  double damage;  ///< with that by the slip of the step, without that by its opening
+};
+
+/// @param start gap, m. @param end gap, m. @param trial shear force, N
+MeanBounds mean_bounds(const PointLaw& law, double start, double end, double trial) {
+  MeanBounds mean{
+      softened_normal(law, start, end, law.bond.start), {law.held_limit, 0.0, 0.0, 0.0, 0.0}, 0.0};
+  const double resistance = law.friction * std::max(mean.normal.force, 0.0);
+  const double cohesion = law.bond.cohesion * cohesive_share(law, start, end);
+  if (law.held_limit < 0.0) mean.limit = mean_limit(law, trial, resistance, cohesion);
+  mean.damage = law.bond.start + mean.limit.growth;
+  if (mean.limit.growth > 0.0) mean.normal = softened_normal(law, start, end, mean.damage);
+  return mean;
+}
+
+/// Sets damage and normal spring at the end of a step. @param start gap, m. @param gap at the end, m
+/// @param damage that of MeanBounds
+NormalSpring set_end_normal(const PointLaw& law, double start, double gap, double damage,
+                            PointResponse& end) {
+  const BondDamage& bond = law.bond;
+  end.damage = bond.at_opening(gap, damage);
+  const double opened = std::max(start, 0.0);
+  end.fractured = 0.5 * (bond.stiffness(bond.start) - bond.stiffness(damage)) * opened * opened +
+                  bond.energy_of_tension(end.damage - damage);
+  const NormalSpring spring = normal_spring(law, gap, end.damage);
+  end.force[0] = spring.force;
+  end.tangent(0, 0) = spring.stiffness;
+  end.normal_energy = spring.energy;
+  return spring;
+}
+
+/// Sets the mean normal force. A fall of tension is in the coupling: the tangent is positive semi-definite.
+/// @param stiffness of the spring at the end, N/m
+void set_mean_normal(const PointLaw& law, const SoftenedNormal& normal, double stiffness,
+                     MeanResponse& mean) {
+  mean.force[0] = normal.force;
+  mean.tangent(0, 0) = normal.slope < 0.0 ? 0.5 * stiffness : normal.slope;
+  if (law.held_limit < 0.0) mean.coupling.force[0] = normal.slope - mean.tangent(0, 0);
+}
+
+/// Sets the mean shear force of a point that slides, its normal force being set. @param trial shear force, N
+/// @param start gap, m. @param end gap, m
+void set_mean_sliding(const PointLaw& law, const MeanBounds& bounds, const Eigen::Vector2d& trial,
+                      double start, double end, MeanResponse& mean) {
+  const auto& [normal, limit, damage] = bounds;
+  const double stiffness = 0.5 * law.shear_stiffness;
+  const double length = trial.norm();
+  const Eigen::Vector2d direction = trial / length;
+  mean.force.tail<2>() = limit.value * direction;
+  mean.tangent.bottomRightCorner<2, 2>() =
+      stiffness * limit.value / length * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+  // Of a point that opens and slides, the fall of tension alone: a Jacobian that is not exact costs iterations only.
+  if (law.held_limit < 0.0 && normal.slope - mean.tangent(0, 0) == 0.0) {
+    mean.coupling.force << limit.by_damage * tension_by_damage(law.bond, start, end, damage), direction;
+    mean.coupling.by << (normal.force > 0.0 ? limit.by_resistance * law.friction * normal.slope : 0.0),
+        limit.by_trial * stiffness * direction;
+  }
+}
+
+/// Sets the shear spring at the end of a closed point. A spring that ends beyond its limit there is released to it at
+/// once, not at the start of the next step. @param slip elastic, at the end, m
+void set_end_shear(const PointLaw& law, Eigen::Vector2d slip, const MeanResponse& mean, PointResponse& end) {
+  const double limit = limit_of(law, end.force[0], end.damage) / law.shear_stiffness;
+  if (const double length = slip.norm(); law.held_limit < 0.0 && length > limit) {
+    const Eigen::Vector2d released = (1.0 - limit / length) * slip;
+    slip -= released;
+    if (end.state == ContactState::sliding) end.fractured += mean.force.tail<2>().dot(released);
+  }
+  end.force.tail<2>() = -law.shear_stiffness * slip;
+  end.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
+}
+
 }  // namespace
 
 AveragedStep softened_step(const PointLaw& law, const PointResponse& start,
                            const Eigen::Vector3d& start_place, const Eigen::Vector3d& end_place) {
-  const BondDamage& bond = law.bond;
   const double start_gap = start_place[0], end_gap = end_place[0];
   Eigen::Vector2d start_slip = start_place.tail<2>();
   if (start.state == ContactState::sliding) start_slip = elastic_slip(law, start, start_slip);
   const Eigen::Vector2d way = end_place.tail<2>() - start_place.tail<2>();
-  const double stiffness = 0.5 * law.shear_stiffness;
   const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
   const double length = trial.norm();
-  SoftenedNormal normal = softened_normal(law, start_gap, end_gap, bond.start);
-  const double resistance = law.friction * std::max(normal.force, 0.0);
-  const double cohesion = bond.cohesion * cohesive_share(law, start_gap, end_gap);
-  MeanLimit limit{law.held_limit, 0.0, 0.0, 0.0, 0.0};
-  if (law.held_limit < 0.0) limit = mean_limit(law, length, resistance, cohesion);
-  const double after_slip = bond.start + limit.growth;
-  if (limit.growth > 0.0) normal = softened_normal(law, start_gap, end_gap, after_slip);
+  const MeanBounds bounds = mean_bounds(law, start_gap, end_gap, length);
+  const double limit = bounds.limit.value;
 
   AveragedStep step{{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0},
-                    {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, limit.value}};
+                    {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, limit}};
   PointResponse& end = step.end;
   MeanResponse& mean = step.mean;
-  end.damage = bond.at_opening(end_gap, after_slip);
-  const double opened = std::max(start_gap, 0.0);
-  end.fractured = 0.5 * (bond.stiffness(bond.start) - bond.stiffness(after_slip)) * opened * opened +
-                  bond.energy_of_tension(end.damage - after_slip);
-  const NormalSpring spring = normal_spring(law, end_gap, end.damage);
-  end.force[0] = spring.force;
-  end.tangent(0, 0) = spring.stiffness;
-  end.normal_energy = spring.energy;
-  mean.force[0] = normal.force;
-  mean.tangent(0, 0) = normal.slope < 0.0 ? 0.5 * spring.stiffness : normal.slope;
-  const double falls = normal.slope - mean.tangent(0, 0);
-  if (law.held_limit < 0.0) mean.coupling.force[0] = falls;
-  if (limit.value <= 0.0 && spring.open) return step;
+  const NormalSpring spring = set_end_normal(law, start_gap, end_gap, bounds.damage, end);
+  set_mean_normal(law, bounds.normal, spring.stiffness, mean);
+  if (limit <= 0.0 && spring.open) return step;
   if (!spring.open) end.state = ContactState::locked;
   Eigen::Vector2d end_slip = start_slip + way;
-  if (!slides(law, length, limit.value)) {
-    mean.force.tail<2>() = length > limit.value ? Eigen::Vector2d(limit.value / length * trial) : trial;
-    mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness);
+  if (!slides(law, length, limit)) {
+    mean.force.tail<2>() = length > limit ? Eigen::Vector2d(limit / length * trial) : trial;
+    mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(0.5 * law.shear_stiffness);
   } else {
-    const Eigen::Vector2d direction = trial / length;
-    mean.force.tail<2>() = limit.value * direction;
-    mean.tangent.bottomRightCorner<2, 2>() =
-        stiffness * limit.value / length * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
-    // Of a point that opens and slides, the fall of tension alone: a Jacobian that is not exact costs iterations only.
-    if (law.held_limit < 0.0 && falls == 0.0) {
-      mean.coupling.force << limit.by_damage * tension_by_damage(bond, start_gap, end_gap, after_slip),
-          direction;
-      mean.coupling.by << (normal.force > 0.0 ? limit.by_resistance * law.friction * normal.slope : 0.0),
-          limit.by_trial * stiffness * direction;
-    }
+    set_mean_sliding(law, bounds, trial, start_gap, end_gap, mean);
     end_slip = -2.0 / law.shear_stiffness * mean.force.tail<2>() - start_slip;
     if (!spring.open) end.state = ContactState::sliding;
   }
-  if (spring.open) return step;
-  // A spring that ends beyond its limit there is released to it at once, not at the start of the next step.
-  const double limit_at_end = limit_of(law, spring.force, end.damage) / law.shear_stiffness;
-  if (const double ends = end_slip.norm(); law.held_limit < 0.0 && ends > limit_at_end) {
-    const Eigen::Vector2d released = (1.0 - limit_at_end / ends) * end_slip;
-    end_slip -= released;
-    if (end.state == ContactState::sliding) end.fractured += mean.force.tail<2>().dot(released);
-  }
-  end.force.tail<2>() = -law.shear_stiffness * end_slip;
-  end.shear_energy = 0.5 * law.shear_stiffness * end_slip.squaredNorm();
+  if (!spring.open) set_end_shear(law, end_slip, mean, end);
   return step;
 }
 

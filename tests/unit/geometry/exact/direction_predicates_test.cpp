@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/rational_vector.hpp"
 #include "support/exact_numbers.hpp"
 
@@ -124,35 +123,6 @@ TEST_P(Ladders, ThePlaneThroughThreeTiltedPoints) {
   EXPECT_EQ(sign_along(w, q, a, ladder), 1);
   const double rest = (0.1 - (z - 0.25)) + 0.0;  // exact by Sterbenz: 0.1 + 0.25 - z
   EXPECT_EQ(sign_along(w, r, a, ladder), rest > 0.0 ? -1 : rest < 0.0 ? 1 : 0);
-}
-
-TEST_P(Ladders, HeightsAreRoundedOnce) {
-  // w = (1, 1, 1): the height of (1, 0, 0) is 1/sqrt(3), its step (1/3, 1/3, 1/3).
-  const Vector3 ones(1, 1, 1);
-  const ContactDirection w = ContactDirection::along({&ones, &origin});
-  const ContactHeight height(w, {&x, &origin}, ladder);
-  EXPECT_EQ(height.squared(), 1.0 / 3.0);
-  EXPECT_EQ(height.length(), std::sqrt(1.0 / 3.0));  // the root of 1/3 rounds alike for both
-  EXPECT_EQ(height.step(), Vector3::Constant(1.0 / 3.0));
-  EXPECT_EQ(height.above(x), Vector3(4.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0));
-  EXPECT_EQ(height.below(x), Vector3(2.0 / 3.0, -1.0 / 3.0, -1.0 / 3.0));
-}
-
-TEST_P(Ladders, UnitVectorsDoNotDependOnTheLengthOfW) {
-  const Vector3 shorter(3, 4, 0), longer(3e10, 4e10, 0);
-  for (const Vector3* p : {&shorter, &longer}) {
-    const Vector3 unit = unit_vector(ContactDirection::along({p, &origin}), ladder);
-    EXPECT_EQ(unit, Vector3(0.6, 0.8, 0.0));
-  }
-}
-
-TEST_P(Ladders, CrossingsAreRoundedOnce) {
-  const Vector3 up(0, 0, 1), a(0, 0, 0), b(1, 3, 0), c(-1, 1, 7), d(5, 1, 7);
-  const ContactDirection w = ContactDirection::along({&up, &origin});
-  EXPECT_EQ(crossing_point(w, a, b, c, d, ladder), Vector3(1.0 / 3.0, 1.0, 0.0));
-  EXPECT_EQ(crossing_point(w, c, d, a, b, ladder), Vector3(1.0 / 3.0, 1.0, 7.0));
-  const Vector3 low(0, 0, -1), high(1, 5, 2);
-  EXPECT_EQ(plane_point(w, low, high, origin, ladder), Vector3(1.0 / 3.0, 5.0 / 3.0, 0.0));
 }
 
 TEST_P(Ladders, Bounds) {
