@@ -16,7 +16,7 @@
 #include "geometry/contacts/motion_check.hpp"
 #include "mechanics/block/block_surface.hpp"
 #include "solver/contact/contact_stages.hpp"
-#include "solver/contact/occluded_faces_of_step.hpp"
+#include "solver/contact/covered_faces.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/settings.hpp"
 

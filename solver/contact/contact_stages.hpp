@@ -13,11 +13,11 @@ namespace ashlar {
 
 /// In order of execution.
 enum class ContactStage {
-  search,  ///< features within reach that face each other (geometry/contacts/contact_search.hpp)
-  area,    ///< overlaps without an area beyond rounding are removed (overlap_outline.hpp)
-  occluded_faces,  ///< vertices below a face that lies on a third block are searched again (occluded_faces_of_step.hpp)
-  entrance,       ///< convex blocks: completed and reduced by the exact contact of both (convex_search.hpp)
-  internal_edge,  ///< contacts caused only by penetration are removed (internal_edges.hpp)
+  search,          ///< features within reach that face each other (geometry/contacts/contact_search.hpp)
+  area,            ///< overlaps without an area beyond rounding are removed (overlap_outline.hpp)
+  occluded_faces,  ///< vertices below a face that lies on a third block are searched again (covered_faces.hpp)
+  entrance,        ///< convex blocks: completed and reduced by the exact contact of both (convex_search.hpp)
+  internal_edge,   ///< contacts caused only by penetration are removed (internal_edges.hpp)
 };
 
 /// Called after each stage for each pair that was searched in it, one at a time. @param blocks the lower number first

@@ -6,7 +6,7 @@
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
 #include "solver/contact/contact_finder.hpp"
-#include "solver/contact/open_faces.hpp"
+#include "solver/contact/covered_faces.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {

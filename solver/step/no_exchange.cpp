@@ -16,7 +16,7 @@ class NoExchange final : public StepExchange {
   [[nodiscard]] bool owns(int) const override { return true; }
   [[nodiscard]] bool knows(int) const override { return true; }
   [[nodiscard]] bool first() const override { return true; }
-  [[nodiscard]] const PlacedBlocks* placed() const override { return nullptr; }
+  [[nodiscard]] const PlacesOfRun* placed() const override { return nullptr; }
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(
       const std::vector<std::byte>& given) const override {
     return {given};

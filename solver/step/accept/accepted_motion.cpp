@@ -13,6 +13,23 @@
 namespace ashlar {
 namespace {
 
+/// Velocity of moving supports at the end of a step, m/s.
+Eigen::MatrixX3d support_velocity(const BlockModel& block, const BodyStep& body, const TimeScheme& scheme,
+                                  double start) {
+  if (!(scheme.step > 0.0)) return Eigen::MatrixX3d::Zero(body.prescribed.rows(), 3);
+  // In statics time parametrises the loads.
+  return scheme.is_static() ? Eigen::MatrixX3d(body.prescribed / scheme.step)
+                            : block.prescribed_velocity(body.prescribed, start, scheme.step);
+}
+
+/// Velocity without the part that would deform the block, m/s. @param position at the same time
+Eigen::MatrixX3d rigid_part(const BlockModel& block, const Eigen::MatrixX3d& position,
+                            const Eigen::MatrixX3d& velocity) {
+  // Momenta are components along these fields, which are kept.
+  const Eigen::MatrixXd fields = rigid_fields(position);
+  return block.space().expand(fields * (fields.transpose() * block.space().restrict(velocity)));
+}
+
 /// Moves one block to the end of the step and makes its entries in the ledger. The integrator's energy is the
 /// difference between the work of all forces according to the equations and the gain of kinetic energy.
 /// @return energy dissipated by the integrator, besides that of elasticity and contacts, J
@@ -43,18 +60,10 @@ double move_block(const BlockSystem& system, RunState& state, const StepProblem&
   const Eigen::VectorXd on_dashpots = body.dashpot_force(scheme);
   if (on_dashpots.size() > 0) ledger.damping_took(body.change.dot(on_dashpots));
   Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
-  if (block.rigid()) {
-    // Momenta are components along these fields, which are kept.
-    const Eigen::MatrixXd fields = rigid_fields(moved.position + body.motion());
-    end_velocity = block.space().expand(fields * (fields.transpose() * block.space().restrict(end_velocity)));
-  }
+  if (block.rigid()) end_velocity = rigid_part(block, moved.position + body.motion(), end_velocity);
   const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
   if (driven) {
-    Eigen::MatrixX3d rate = Eigen::MatrixX3d::Zero(change.rows(), 3);
-    // In statics time parametrises the loads.
-    if (scheme.step > 0.0)
-      rate = scheme.is_static() ? Eigen::MatrixX3d(body.prescribed / scheme.step)
-                                : block.prescribed_velocity(body.prescribed, clock.time(), scheme.step);
+    const Eigen::MatrixX3d rate = support_velocity(block, body, scheme, clock.time());
     // Supports act against inertia and all forces but those of contacts, which are booked by pair.
     const Eigen::MatrixX3d external = external_force(system, clock, static_cast<int>(k), scheme);
     ledger.loads_did(0.5 * density * (rate.squaredNorm() - (moved.velocity - velocity).squaredNorm()) +
@@ -256,7 +265,7 @@ void note_turns(const BlockSystem& system, RunState& state, const std::vector<Bl
 
 PotentialSum move_blocks(const BlockSystem& system, RunState& state, const StepProblem& problem) {
   const TimeScheme& scheme = problem.scheme;
-  const bool any_free = !system.free_bodies().empty() || has_shared_bodies(system);
+  const bool any_free = !system.free_bodies().empty() || !system.parted_bodies().empty();
   const bool gives_spin_back = !scheme.mean_contacts && !scheme.is_static() && any_free;
   std::vector<BlockState> before;
   if (!scheme.is_static()) before = state.states;

@@ -1,4 +1,4 @@
-#include "solver/shared/island_parts.hpp"
+#include "solver/step/accept/island_parts.hpp"
 
 #include <algorithm>
 #include <map>

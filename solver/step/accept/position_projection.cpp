@@ -84,7 +84,7 @@ std::vector<IslandPart> deep_islands(const BlockSystem& system, const StepProble
 /// The bodies and pairs of the joined island whose islands are too deep.
 Island deep_part(const BlockSystem& system, const Island& joined, const std::vector<ContactPair>& pairs,
                  const std::vector<IslandPart>& deep) {
-  const std::map<int, int> first = first_blocks(system, joined, pairs);
+  const std::map<int, int> first = system.exchange().first_blocks(system, joined, pairs);
   const auto is_deep = [&](int block) {
     const int name = first.at(block);
     return std::any_of(deep.begin(), deep.end(), [&](const IslandPart& part) { return part.first == name; });

@@ -11,10 +11,6 @@
 namespace ashlar {
 namespace {
 
-ContactBody body_of(const BlockSystem& system, const RunState& state, int block) {
-  return {&system.blocks()[at(block)], &state.states[at(block)], nullptr};
-}
-
 /// Transfers of all processes, in the order of blocks. Collective.
 EnergyTransfers gathered(const BlockSystem& system, const EnergyTransfers& own) {
   EnergyTransfers all{joined_of_run(system, own.losses), joined_of_run(system, own.claims)};
@@ -26,9 +22,13 @@ EnergyTransfers gathered(const BlockSystem& system, const EnergyTransfers& own) 
 
 }  // namespace
 
+ContactBody present_body(const BlockSystem& system, const RunState& state, int block) {
+  return {&system.blocks()[at(block)], &state.states[at(block)], nullptr};
+}
+
 ContactPair make_pair(const BlockSystem& system, const RunState& state, PairRecipe recipe) {
   const auto [a, b] = recipe.blocks;
-  return {PairBodies{a, b, body_of(system, state, a), body_of(system, state, b)}, recipe.law,
+  return {PairBodies{a, b, present_body(system, state, a), present_body(system, state, b)}, recipe.law,
           std::move(recipe.patch), std::move(recipe.memory), recipe.start};
 }
 

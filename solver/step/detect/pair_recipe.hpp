@@ -17,6 +17,8 @@ struct PairRecipe {
   std::vector<PointMemory> memory;  ///< (#points)
   PatchStart start;
 };
+/// A block as a contact pair takes it: its model and present state.
+[[nodiscard]] ContactBody present_body(const BlockSystem& system, const RunState& state, int block);
 [[nodiscard]] ContactPair make_pair(const BlockSystem& system, const RunState& state, PairRecipe recipe);
 
 /// Recipe of a pair whose cached contacts are valid at the present state.

@@ -120,12 +120,12 @@ void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector
 
 /// Along the largest face of all blocks; empty: as those of the system have it.
 std::optional<Eigen::Matrix3d> axes_of(const BlockSystem& system) {
-  const PlacedBlocks* placed = system.exchange().placed();
+  const PlacesOfRun* placed = system.exchange().placed();
   return placed == nullptr ? std::nullopt : std::optional(placed->axes);
 }
 
 std::vector<PlacedVolume> places_of(const BlockSystem& system) {
-  const PlacedBlocks* placed = system.exchange().placed();
+  const PlacesOfRun* placed = system.exchange().placed();
   return placed == nullptr ? places_of(system.blocks()) : placed->volumes;
 }
 
@@ -317,10 +317,10 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   const bool goes_on = use == PairUse::motion && state.has_begun();
   const bool all_kept =
       std::all_of(found.begin(), found.end(), [](const FoundContacts& pair) { return pair.kept != nullptr; });
-  const std::vector<FoundContacts> none;
-  const SurfaceContinuation covered(
-      all_kept ? none : found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
-      settings.contact_distance);
+  SurfaceContinuation covered(settings.contact_distance);
+  for (const auto& [blocks, contacts, reach, kept] : found)
+    if (!all_kept && !contacts.overlaps.empty())
+      covered.add(blocks, contacts.overlaps, finder_.placed(blocks[0]), finder_.placed(blocks[1]));
   // Laws are user functions, which need not be thread-safe.
   std::vector<JointLaw> laws;
   for (const FoundContacts& pair : found) laws.push_back(law_of(system, pair.blocks));

@@ -9,9 +9,9 @@
 
 #include "solver/contact/contact_finder.hpp"
 #include "solver/contact/contact_pair.hpp"
+#include "solver/contact/covered_faces.hpp"
 #include "solver/contact/internal_edges.hpp"
 #include "solver/contact/reference_order.hpp"
-#include "solver/contact/surface_continuation.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
 #include "solver/step/detect/pair_recipe.hpp"

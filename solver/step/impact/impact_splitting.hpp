@@ -1,14 +1,10 @@
-// Impulses of an impact by operator splitting (ADMM): bodies and points in turn, coupled by a spring at every point, so
-// that all points change at once. It finds which points stick, slide and part where Newton's method does not from afar
-// (proximal_impact.hpp), which finishes what it begins. With z, j, u, t of impact.hpp, K the cone
-// |j_t| <= tan(phi) j_n of a point (all impulses for a bond), y the velocity after the impact:
+// Impulses of an impact by operator splitting (linear/splitting.hpp), which proximal_impact.hpp finishes. Places are
+// velocities, forces are impulses. With M, u, t of impact.hpp and P_K the projection on the cone |f_t| <= tan(phi) f_n of
+// a point (all impulses for a bond):
 //
-//   bodies  (M + G' R G) z = G' (j + R (y - w))              w = u - t e_n + s e_n
-//   points  j+ = P_K(j - R v),  y = v + (j+ - j)/R           v = 1.6 (G z + w) - 0.6 y,  s = tan(phi) |y_t|
+//   A = M,  b = 0,  s0 = u - t e_n + tan(phi) |v_t| e_n,  f+ = P_K(f - H y),  H = 1/(rho d)
 //
-// P_K is the projection. R = 1/(rho d), d the mean mobility of the point; rho follows the ratio of the changes of j and
-// of y. The shift s makes the projection Coulomb's law; with it, convergence is not proven. The splitting: S. Boyd et
-// al., Distributed optimization and statistical learning via ADMM, Found. Trends Mach. Learn. 3 (2011) 1.
+// d is the mean mobility of the point; rho is adapted. The shift by v makes the projection Coulomb's law.
 #pragma once
 
 #include "solver/step/impact/impact_bodies.hpp"
