@@ -7,6 +7,7 @@
 #include "apps/scene/assemble/block_material.hpp"
 #include "apps/scene/assemble/limit_choices.hpp"
 #include "apps/scene/assemble/stress_field.hpp"
+#include "apps/scene/assemble/water_loads.hpp"
 #include "apps/scene/model/support_history.hpp"
 #include "apps/scene/toml/formulas.hpp"
 
@@ -43,7 +44,7 @@ SceneModels::SceneModels(const LoadedScene& loaded, const SimulationSettings& ti
     : loaded_(loaded),
       load_factor_(load_factor),
       multiplied_(multiplied_blocks(loaded.scene)),
-      water_(std::make_shared<const WaterLoads>(loaded, diagnostics)),
+      water_(std::make_shared<const WaterPressure>(water_pressure_of(loaded, diagnostics))),
       boundaries_(loaded.scene, loaded.solids, time, diagnostics) {}
 
 BlockModel SceneModels::model(std::size_t block, BlockPartsLibrary& library) const {

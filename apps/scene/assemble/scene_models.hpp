@@ -1,5 +1,5 @@
 // Models of the blocks of a scene, each made when it is asked for: supports, loads, water, stress of the ground and quiet
-// faces. Nothing is kept of a model, so that a rank may look at all blocks of a scene without having them.
+// faces. Nothing is kept of a model, so that a process may look at all blocks of a scene without having them.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 #include "apps/scene/assemble/quiet_boundaries.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
-#include "apps/scene/assemble/water_loads.hpp"
 #include "mechanics/block/block_model.hpp"
+#include "solver/ground/water_pressure.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
@@ -29,7 +29,7 @@ class SceneModels {
   [[nodiscard]] std::size_t count() const { return loaded_.scene.block.size(); }
   [[nodiscard]] const ExpandedScene& scene() const { return loaded_.scene; }
   /// Does not need the scene any more.
-  [[nodiscard]] const std::shared_ptr<const WaterLoads>& water() const { return water_; }
+  [[nodiscard]] const std::shared_ptr<const WaterPressure>& water() const { return water_; }
 
  private:
   [[nodiscard]] BlockDefinition definition(std::size_t block) const;
@@ -37,7 +37,7 @@ class SceneModels {
   const LoadedScene& loaded_;
   double load_factor_;
   std::vector<bool> multiplied_;  ///< (#blocks) loads have the factor
-  std::shared_ptr<const WaterLoads> water_;
+  std::shared_ptr<const WaterPressure> water_;
   QuietBoundaries boundaries_;
 };
 

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/toml/formulas.hpp"
+#include "solver/ground/ground_stress.hpp"
 #include "solver/ranks/ranks.hpp"
 
 namespace ashlar {
@@ -21,22 +22,18 @@ StressField initial_stress_of(const Scene& scene, std::size_t block, std::size_t
     if (means_block(scene, scene.stage[s].add, block)) return nullptr;
   if (initial.stress.given())
     return [at = initial.stress.at](const Vector3& place) -> Eigen::Matrix3d {
-      const std::vector<double> s = at(place);
-      return (Eigen::Matrix3d() << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]).finished();
+      const std::vector<double> components = at(place);
+      return symmetric_stress(std::span<const double, 6>(components));
     };
   const SceneMaterial* material = find_material(scene, scene.block[block].material);
   const double own = material == nullptr ? 0.0 : material->density * scene.analysis.gravity.norm();
-  const double weight = initial.unit_weight.value_or(own);
-  const Vector3 up = up_of(scene);
-  const Eigen::Matrix3d along = up * up.transpose();
-  const Eigen::Matrix3d shape = along + *initial.k0 * (Eigen::Matrix3d::Identity() - along);
-  return [weight, up, shape, surface = initial.surface](const Vector3& place) -> Eigen::Matrix3d {
-    return -weight * std::max(0.0, surface - up.dot(place)) * shape;
-  };
+  return stress_at_rest({.unit_weight = initial.unit_weight.value_or(own),
+                         .k0 = *initial.k0,
+                         .surface = initial.surface,
+                         .up = up_of(scene)});
 }
 
 void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
-  constexpr double reported_from = 0.01;
   std::optional<StressImbalance> worst;
   const auto refuse = [&](const std::exception& error) {
     diagnostics.error(scene.places.key("initial_stress"),
@@ -53,7 +50,7 @@ void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics&
     if (simulation.system().exchange().alone()) throw;
     refuse(error);
   }
-  if (!worst || worst->share < reported_from) return;
+  if (!worst || !worst->is_notable()) return;
   diagnostics.warning(
       scene.places.key("initial_stress"),
       fmt::format(

@@ -8,10 +8,9 @@
 
 namespace ashlar {
 
-/// Stress at places of a block (Pa, tension positive); empty: none. With k0 the vertical stress is minus the weight
-/// above, unit_weight times the height up to the surface, along gravity, and the stress across is k0 times it; none
-/// above the surface. None in blocks that the stage, or one before it, has
-/// added. @param block,stage indices
+/// Stress at places of a block (Pa, tension positive); empty: none. With k0 that of ground at rest (ground_stress.hpp),
+/// along gravity, with the weight of the block's material if the scene gives none. None in blocks that the stage, or one
+/// before it, has added. @param block,stage indices
 [[nodiscard]] StressField initial_stress_of(const Scene& scene, std::size_t block, std::size_t stage);
 
 /// Starts blocks under the initial stress of a scene. Warns of a stress that neither joints nor boundaries hold.

@@ -6,9 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "solver/ranks/block_share.hpp"
+#include "solver/ground/tied_pairs.hpp"
 #include "solver/state/agreement.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -52,12 +51,8 @@ bool bonds_any(const JointTable& table, std::size_t joint, const BlockSystem& sy
   const bool has_all = system.exchange().first();
   const auto is_known = [&](std::size_t block) { return has_all || system.here(static_cast<int>(block)); };
   for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
-    if (!table.law_between(a, b).tie || !is_known(a) || !is_known(b)) return true;
-    const Box first = box_of(blocks[a].solid().mesh().points),
-              second = box_of(blocks[b].solid().mesh().points);
-    if (!first.meets(second)) return true;
     bonds =
-        tie_between(blocks[a].solid(), blocks[a].basis(), blocks[b].solid(), blocks[b].basis()).area > 0.0;
+        table.law_between(a, b).tie && is_known(a) && is_known(b) && have_common_face(blocks[a], blocks[b]);
     return !bonds;
   });
   return bonds;
@@ -90,8 +85,8 @@ std::vector<TieRequest> ties_of(const Scene& scene, const JointTable& table,
                                 const std::vector<BlockSummary>& blocks) {
   std::vector<TieRequest> ties;
   for (const auto& [a, b] : tied_pairs(scene, table, blocks))
-    ties.push_back({static_cast<int>(a), static_cast<int>(b),
-                    automatic_tie_stiffness(blocks[a].stiffness, blocks[b].stiffness)});
+    ties.push_back(
+        automatic_tie(static_cast<int>(a), static_cast<int>(b), blocks[a].stiffness, blocks[b].stiffness));
   return ties;
 }
 

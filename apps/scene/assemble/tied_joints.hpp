@@ -16,7 +16,7 @@ namespace ashlar {
                                               const std::vector<BlockSummary>& blocks);
 
 /// Reports a [[joint]] that ties nothing as an error at its key, and one undone by later ones as a warning. @param
-/// system with the ties. With several ranks collective: all report the same
+/// system with the ties. With several processes collective: all report the same
 void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& system,
                 Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-#include "solver/run/free_field.hpp"
+#include "solver/ground/free_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,4 @@
-#include "apps/scene/expand/ground_layers.hpp"
-
-#include <fmt/format.h>
+#include "solver/ground/side_layers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,55 +43,32 @@ std::vector<double> limits_of(const std::vector<SideFace>& faces, double toleran
 
 }  // namespace
 
-std::optional<std::size_t> base_of_side(const Scene& scene, std::size_t side) {
-  constexpr double across = 1e-9;  // cosine of a right angle, as written in decimals
-  std::optional<std::size_t> base;
-  const Vector3 normal = scene.boundary[side].plane.normal.normalized();
-  for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
-    const SceneBoundary& other = scene.boundary[i];
-    if (other.kind != SceneBoundary::Kind::quiet) continue;
-    if (std::abs(other.plane.normal.normalized().dot(normal)) > across) continue;
-    if (!base || (scene.boundary[*base].wave.empty() && !other.wave.empty())) base = i;
-  }
-  return base;
-}
-
-SideLayers layers_beside(const Scene& scene, std::size_t side, std::size_t base,
-                         const std::vector<const Polyhedron*>& solids) {
-  const ScenePlane& plane = scene.boundary[side].plane;
-  const Vector3 up = -scene.boundary[base].plane.normal.normalized();
+SideLayers layers_beside(const Plane& side, const Plane& base, const std::vector<GroundBlock>& blocks) {
+  using Fault = SideLayersFault::Kind;
+  const Vector3 up = -base.normal.normalized();
   std::vector<SideFace> faces;
   double tolerance = 0.0;
-  for (std::size_t k = 0; k < solids.size(); ++k) {
-    if (solids[k] == nullptr || scene.block[k].fixed || (!scene.absent.empty() && scene.absent[k])) continue;
-    for (const int face : outer_faces(*solids[k], {plane.point, plane.normal})) {
-      faces.push_back(side_face(*solids[k], face, up, scene.boundary[base].plane.point));
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (blocks[k].solid == nullptr || blocks[k].fixed || !blocks[k].present) continue;
+    const Polyhedron& solid = *blocks[k].solid;
+    for (const int face : outer_faces(solid, side)) {
+      faces.push_back(side_face(solid, face, up, base.point));
       faces.back().block = k;
-      tolerance = std::max(tolerance, allowed_offset(*solids[k]));
+      tolerance = std::max(tolerance, allowed_offset(solid));
     }
   }
-  SideLayers result;
   const std::vector<double> limits = limits_of(faces, tolerance);
-  if (limits.empty() || std::abs(limits.front()) > tolerance) {
-    result.fault = limits.empty() ? "no block is beside it"
-                                  : fmt::format("its faces begin {:.3g} m above the base", limits.front());
-    return result;
-  }
-  if (limits.size() == 1) {
-    result.fault = fmt::format(
-        "its faces are lower than {:.3g} m, to which the largest block beside it is known", tolerance);
-    return result;
-  }
+  if (limits.empty()) return {{}, SideLayersFault{Fault::no_face}};
+  if (std::abs(limits.front()) > tolerance) return {{}, SideLayersFault{Fault::above_base, limits.front()}};
+  if (limits.size() == 1) return {{}, SideLayersFault{Fault::too_low, tolerance}};
+  SideLayers result;
   for (std::size_t n = 0; n + 1 < limits.size(); ++n) {
     const double middle = 0.5 * (limits[n] + limits[n + 1]);
     const SideFace* largest = nullptr;
     for (const SideFace& face : faces)
       if (face.bottom < middle && middle < face.top && (largest == nullptr || face.area > largest->area))
         largest = &face;
-    if (largest == nullptr)
-      return {
-          {},
-          fmt::format("no face is between {:.6g} m and {:.6g} m above the base", limits[n], limits[n + 1])};
+    if (largest == nullptr) return {{}, SideLayersFault{Fault::gap, limits[n], limits[n + 1]}};
     result.layers.push_back({limits[n], limits[n + 1], largest->block});
   }
   return result;
