@@ -56,11 +56,12 @@ FollowedPlace FollowedBlocks::as_placed() const {
           {}};
 }
 
-RigidModel FollowedBlocks::model_of(const FollowedPlace& placement) const {
+RigidModel FollowedBlocks::model_of(const FollowedPlace& placement,
+                                    const std::vector<bool>& multiplied) const {
   RunState state;
   state.states = placement.states;
   for (const auto& [blocks, history] : scene_.histories) state.pairs[blocks].overlap = history.overlap;
-  return rigid_model(system_, state, scene_.end_time, {});
+  return rigid_model(system_, state, scene_.end_time, multiplied);
 }
 
 double FollowedBlocks::radius_about(const RigidBody& body) const {
@@ -83,14 +84,28 @@ double FollowedBlocks::radius_about(const RigidBody& body) const {
   return radius;
 }
 
+double FollowedBlocks::way_of(const RigidBody& body, const BodyVelocity& way) const {
+  const RigidMotionOf motion = motion_of(body, way);
+  return motion.translation.norm() + radius_about(body) * motion.rotation.norm();
+}
+
 double FollowedBlocks::largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const {
   double largest = 0.0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const RigidMotionOf motion = motion_of(model.bodies[b], way[b]);
-    largest =
-        std::max(largest, motion.translation.norm() + radius_about(model.bodies[b]) * motion.rotation.norm());
-  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    largest = std::max(largest, way_of(model.bodies[b], way[b]));
   return largest;
+}
+
+std::vector<int> FollowedBlocks::moving_blocks(const RigidModel& model,
+                                               const std::vector<BodyVelocity>& velocity) const {
+  constexpr double moves_along = 0.01;  // of the fastest
+  const double largest = largest_way(model, velocity);
+  std::vector<int> moving;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (way_of(model.bodies[b], velocity[b]) > moves_along * largest)
+      moving.insert(moving.end(), model.bodies[b].blocks.begin(), model.bodies[b].blocks.end());
+  std::sort(moving.begin(), moving.end());
+  return moving;
 }
 
 void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocity>& way,
@@ -139,6 +154,29 @@ RigidModel midway(const RigidModel& model, const ConeProgram& program, const std
     }
   }
   return mid;
+}
+
+std::vector<double> gaps_over(const RigidModel& model, double length) {
+  constexpr double farthest = 1e3;
+  std::vector<double> gaps;
+  gaps.reserve(model.points.size());
+  for (const RigidPoint& point : model.points) gaps.push_back(std::min(point.contact.gap / length, farthest));
+  return gaps;
+}
+
+std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way) {
+  for (BodyVelocity& v : way) v *= factor;
+  return way;
+}
+
+bool cannot_balance(ConeProgram& program, const std::vector<BodyVelocity>& load) {
+  constexpr double certain = 10.0;
+  ConeQuestion question;
+  question.load = load;
+  const ConeAnswer answer = program.solve(question);
+  double square = 0.0;
+  for (const BodyVelocity& v : answer.velocity) square += v.squaredNorm();
+  return answer.status == ConeStatus::solved && square > certain * answer.gap;
 }
 
 double smallest_size(const BlockSystem& system, const RigidModel& model) {

@@ -1,5 +1,5 @@
-// Rigid blocks that follow a moving support (support_movement.hpp): their placement, the slip of their joints, and
-// the rigid model of the placement.
+// Rigid blocks in finite displacements, along a moving support (support_movement.hpp) or a push (pushover.hpp): their
+// placement, the slip of their joints, and the rigid model of the placement.
 #pragma once
 
 #include <map>
@@ -28,17 +28,23 @@ class FollowedBlocks {
   FollowedBlocks(const PlacedScene& scene, double reach);
 
   [[nodiscard]] FollowedPlace as_placed() const;
-  /// Bodies and all points in reach, gaps in RigidPoint::contact.
-  [[nodiscard]] RigidModel model_of(const FollowedPlace& placement) const;
+  /// Bodies and all points in reach, gaps in RigidPoint::contact. @param multiplied as rigid_model
+  [[nodiscard]] RigidModel model_of(const FollowedPlace& placement,
+                                    const std::vector<bool>& multiplied = {}) const;
 
   /// Largest displacement of any place of a body, m. @param way by body, in coordinates of the model
   [[nodiscard]] double largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const;
+  /// Blocks that move by more than 1 % of the fastest one, ascending. @param velocity by body, in coordinates of the model
+  [[nodiscard]] std::vector<int> moving_blocks(const RigidModel& model,
+                                               const std::vector<BodyVelocity>& velocity) const;
   /// Moves bodies by exact rotations.
   void move(const RigidModel& model, const std::vector<BodyVelocity>& way, FollowedPlace& placement) const;
   void place_support(int support, const SupportWay& way, double q, FollowedPlace& placement) const;
 
  private:
   [[nodiscard]] double radius_about(const RigidBody& body) const;
+  /// Largest displacement of any place of a body, m.
+  [[nodiscard]] double way_of(const RigidBody& body, const BodyVelocity& way) const;
 
   const PlacedScene& scene_;
   BlockSystem system_;          ///< with friction only, and points up to the reach
@@ -50,6 +56,16 @@ class FollowedBlocks {
 /// @param program of the model, with or without the support. @param way m, by body of the programme
 [[nodiscard]] RigidModel midway(const RigidModel& model, const ConeProgram& program,
                                 const std::vector<BodyVelocity>& way);
+
+/// Gaps relative to a length, by point of a model, limited to a thousand: programmes lose digits by shifts of very
+/// different sizes. Forces across larger gaps are detected when gaps are closed.
+[[nodiscard]] std::vector<double> gaps_over(const RigidModel& model, double length);
+
+[[nodiscard]] std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way);
+
+/// True if forces of all points in reach cannot balance the loads: the squared motion by Gauss's principle exceeds
+/// the gap between its primal and dual values.
+[[nodiscard]] bool cannot_balance(ConeProgram& program, const std::vector<BodyVelocity>& load);
 
 /// Size of the smallest block that may move, m: edge of the cube of the same volume.
 [[nodiscard]] double smallest_size(const BlockSystem& system, const RigidModel& model);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -18,33 +17,6 @@ constexpr int most_unknown_steps = 10;  ///< undetermined steps within the toler
 constexpr int most_programmes = 50000;
 
 enum class StepEnd { equilibrium, jammed, unbalanced, far, undetermined };
-
-/// Gaps relative to a length, by point of a model, limited to a thousand: programmes lose digits by shifts of very
-/// different sizes. Forces across larger gaps are detected when gaps are closed.
-std::vector<double> gaps_over(const RigidModel& model, double length) {
-  constexpr double farthest = 1e3;
-  std::vector<double> gaps;
-  gaps.reserve(model.points.size());
-  for (const RigidPoint& point : model.points) gaps.push_back(std::min(point.contact.gap / length, farthest));
-  return gaps;
-}
-
-std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way) {
-  for (BodyVelocity& v : way) v *= factor;
-  return way;
-}
-
-/// True if forces of all points in reach cannot balance the loads: the squared motion by Gauss's principle exceeds
-/// the gap between its primal and dual values.
-bool moves(ConeProgram& program, const std::vector<BodyVelocity>& load) {
-  constexpr double certain = 10.0;
-  ConeQuestion question;
-  question.load = load;
-  const ConeAnswer answer = program.solve(question);
-  double square = 0.0;
-  for (const BodyVelocity& v : answer.velocity) square += v.squaredNorm();
-  return answer.status == ConeStatus::solved && square > certain * answer.gap;
-}
 
 /// Path of a support in one direction.
 class Path {
@@ -233,7 +205,7 @@ class Path {
       const ConeAnswer answer = program.solve(question);
       ++path_.programmes;
       if (!is_balanced(answer))
-        return moves(program, model.steady) ? StepEnd::unbalanced : StepEnd::undetermined;
+        return cannot_balance(program, model.steady) ? StepEnd::unbalanced : StepEnd::undetermined;
       const std::vector<BodyVelocity> motion = times(scale, answer.velocity);
       const double farthest = blocks_.largest_way(model, motion);
       way -= farthest;
@@ -291,16 +263,7 @@ class Path {
     path_.lower = moved();
     for (const BlockState& state : placement_.states) path_.positions.push_back(state.position);
     if (!model_ || velocity_.size() < model_->bodies.size()) return;
-    constexpr double moves_along = 0.01;  // of the fastest
-    const double largest = blocks_.largest_way(*model_, velocity_);
-    std::set<int> moving;
-    for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-      std::vector<BodyVelocity> alone(model_->bodies.size(), BodyVelocity::Zero());
-      alone[b] = velocity_[b];
-      if (blocks_.largest_way(*model_, alone) > moves_along * largest)
-        moving.insert(model_->bodies[b].blocks.begin(), model_->bodies[b].blocks.end());
-    }
-    path_.moving.assign(moving.begin(), moving.end());
+    path_.moving = blocks_.moving_blocks(*model_, velocity_);
   }
 
   const FollowedBlocks& blocks_;

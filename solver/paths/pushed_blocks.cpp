@@ -1,0 +1,262 @@
+#include "solver/paths/pushed_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "mechanics/contact/contact_kinematics.hpp"
+#include "solver/limit/released_motion.hpp"
+#include "solver/paths/yielding_support.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr int most_gap_closings = 30;
+/// Programmes by which c is adapted to a mechanism, and the ratio of way and length that needs none.
+constexpr int most_adaptations = 4;
+constexpr double alike_ways = 1.25;
+/// Push while gaps are closed, of `closed` and of the gap.
+constexpr double push_of_closed = 0.1, push_of_gap = 1e-2;
+/// Multiplier of loads as large as the steady ones that counts as unbounded.
+constexpr double unbounded = 1e3;
+
+double sum_of_norms(const std::vector<BodyVelocity>& loads) {
+  double sum = 0.0;
+  for (const BodyVelocity& load : loads) sum += load.norm();
+  return sum;
+}
+
+/// Replaces the multiplied loads by forces in proportion to mass. @param acceleration m/s^2
+void push_masses(RigidModel& model, const Vector3& acceleration) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const RigidBody& body = model.bodies[b];
+    BodyVelocity wrench = BodyVelocity::Zero();
+    if (!body.blocks.empty()) wrench.head<3>() = body.mass * acceleration;
+    model.multiplied[b] = body.motion.transpose() * wrench / model.units.force();
+  }
+}
+
+/// Displacement of a body's centre by a constant twist. @param translation m, of the centre at the start
+/// @param rotation rad
+Vector3 way_along_screw(const Vector3& translation, const Vector3& rotation) {
+  constexpr double small_angle = 1e-4;
+  const double angle = rotation.norm();
+  const double half = 0.5 * angle;
+  const double first = angle < small_angle ? 0.5 : 2.0 * std::pow(std::sin(half) / angle, 2);
+  const double second = angle < small_angle ? 1.0 / 6.0 : (angle - std::sin(angle)) / std::pow(angle, 3);
+  const Vector3 across = rotation.cross(translation);
+  return translation + first * across + second * rotation.cross(across);
+}
+
+/// The motion of bodies whose twist is that of the middle of a step: hinges on bodies at rest stay in place exactly, others
+/// to third order of the rotation. @param first m, motion by which the middle was reached; @param middle m, motion there
+std::vector<BodyVelocity> along_screws(const RigidModel& model, const std::vector<BodyVelocity>& first,
+                                       const std::vector<BodyVelocity>& middle) {
+  std::vector<BodyVelocity> way;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const RigidBody& body = model.bodies[b];
+    const RigidMotionOf motion = motion_of(body, middle[b]);
+    // The twist at the centre as it is at the start.
+    const Vector3 start =
+        motion.translation - motion.rotation.cross(0.5 * motion_of(body, first[b]).translation);
+    BodyVelocity screw;
+    screw << way_along_screw(start, motion.rotation), motion.rotation;
+    way.emplace_back(body.motion.fullPivLu().solve(screw));
+  }
+  return way;
+}
+
+/// Largest opening of points under pressure in a motion, m. @param way m
+double opening_of_push(const PushedPlace& from, const std::vector<BodyVelocity>& way,
+                       const std::vector<Eigen::Vector3d>& force) {
+  constexpr double bears = 1e-3;  // of the largest force
+  double largest = 0.0, opened = 0.0;
+  for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
+  const std::vector<ConePair>& pairs = from.program->pairs();
+  for (std::size_t n = 0; n < pairs.size(); ++n)
+    for (std::size_t k = pairs[n].begin; k < pairs[n].end; ++k)
+      if (force[k][0] > bears * largest) opened = std::max(opened, from.program->relative(n, k, way)[0]);
+  return opened;
+}
+
+/// The unit vector of a direction.
+Vector3 unit_of(const Vector3& direction) {
+  if (!(direction.norm() > 0.0)) throw std::invalid_argument("the direction of a pushover is zero");
+  return direction.normalized();
+}
+
+}  // namespace
+
+PushedBlocks::PushedBlocks(const PlacedScene& scene, const PushoverSearch& search, const PathLengths& lengths)
+    : direction_(unit_of(search.direction)),
+      multiplied_(search.multiplied),
+      gravity_(scene.system.settings().gravity_at(scene.end_time).norm()),
+      lengths_(lengths),
+      threads_(scene.threads),
+      blocks_(scene, lengths.reach) {}
+
+RigidModel PushedBlocks::model_of(const FollowedPlace& placement) const {
+  RigidModel model = blocks_.model_of(placement, multiplied_);
+  if (multiplied_.empty()) push_masses(model, gravity_ * direction_);
+  return model;
+}
+
+std::optional<ConeAnswer> PushedBlocks::pushed(ConeProgram& program, const RigidModel& model,
+                                               const RigidModel& gaps_of, double length) {
+  ConeQuestion question;
+  question.load = model.steady;
+  question.grows = times(1.0 / rate_, model.multiplied);
+  question.most = most_ * rate_;
+  question.shift = gaps_over(gaps_of, length);
+  ConeAnswer answer = program.solve(question);
+  ++programmes_;
+  if (!is_balanced(answer)) {
+    failure_ = PushFailure::undetermined;
+    return std::nullopt;
+  }
+  if (boundless(question, answer)) {
+    failure_ = PushFailure::jammed;
+    return std::nullopt;
+  }
+  return answer;
+}
+
+std::optional<ConeAnswer> PushedBlocks::pushed_by(PushedPlace& from, double length) {
+  for (int n = 0;; ++n) {
+    std::optional<ConeAnswer> answer = pushed(*from.program, from.model, from.model, length);
+    if (!answer) return std::nullopt;
+    const double way = blocks_.largest_way(from.model, answer->velocity);
+    if (n == most_adaptations || (way < alike_ways && alike_ways * way > 1.0)) return answer;
+    rate_ /= way;
+  }
+}
+
+std::optional<PushedPlace> PushedBlocks::start() {
+  constexpr double shorter = 0.25;
+  PushedPlace placed;
+  placed.placement = blocks_.as_placed();
+  placed.model = model_of(placed.placement);
+  placed.program.emplace(program_of(placed.model, threads_));
+  const double steady = sum_of_norms(placed.model.steady), pushed = sum_of_norms(placed.model.multiplied);
+  if (!(pushed > 0.0)) throw std::invalid_argument("the pushed loads move no block");
+  most_ = unbounded * std::max(steady, pushed) / pushed;
+  if (cannot_balance(*placed.program, placed.model.steady)) {
+    failure_ = PushFailure::unbalanced;
+    return std::nullopt;
+  }
+  // A gap may be shorter than a step.
+  for (double length = lengths_.longest_step; length >= lengths_.closed; length *= shorter) {
+    rate_ = pushed;
+    if (pushed_by(placed, length)) return settled(std::move(placed.placement), lengths_.reach);
+  }
+  return std::nullopt;
+}
+
+std::optional<PushedPlace> PushedBlocks::advanced(PushedPlace& from, double length) {
+  last_way_ = 0.0;
+  failed_.reset();
+  const std::optional<ConeAnswer> ahead = pushed_by(from, length);
+  if (!ahead) return std::nullopt;
+  const std::vector<BodyVelocity> first = times(length, ahead->velocity);
+  const RigidModel middle = midway(from.model, *from.program, first);
+  ConeProgram program = program_of(middle, threads_);
+  const std::optional<ConeAnswer> at_middle = pushed(program, middle, from.model, length);
+  // If there is none, the first directions are used, and remaining gaps are closed later.
+  const std::vector<BodyVelocity> none(first.size(), BodyVelocity::Zero());
+  const std::vector<BodyVelocity> way =
+      at_middle ? along_screws(from.model, first, times(length, at_middle->velocity))
+                : along_screws(from.model, none, first);
+  const double opened = std::max(0.0, opening_of_push(from, first, ahead->force));
+  last_way_ = blocks_.largest_way(from.model, way);
+  if (!(last_way_ <= lengths_.farthest)) {
+    failure_ = PushFailure::far;
+    return std::nullopt;
+  }
+  FollowedPlace next = from.placement;
+  blocks_.move(from.model, way, next);
+  return settled(std::move(next), lengths_.farthest - last_way_, opened);
+}
+
+std::optional<PushedPlace> PushedBlocks::settled(FollowedPlace placement, double way, double opened) {
+  double gap = opened;
+  for (int n = 0; n < most_gap_closings; ++n) {
+    PushedPlace place;
+    place.placement = std::move(placement);
+    place.model = model_of(place.placement);
+    place.program.emplace(program_of(place.model, threads_));
+    const double push = std::max(push_of_closed * lengths_.closed, push_of_gap * gap);
+    std::optional<ConeAnswer> answer = pushed(*place.program, place.model, place.model, push);
+    if (!answer) {
+      if (failure_ == PushFailure::undetermined) failed_ = std::move(place);
+      return std::nullopt;
+    }
+    const std::vector<BodyVelocity> motion = times(push, answer->velocity);
+    const double farthest = blocks_.largest_way(place.model, motion);
+    // The multiplier belongs to the placement: a motion this small is not made.
+    if (farthest <= lengths_.closed) {
+      place.multiplier = answer->factor / rate_;
+      place.velocity = std::move(answer->velocity);
+      place.force = std::move(answer->force);
+      return place;
+    }
+    way -= farthest;
+    last_way_ += farthest;
+    if (!(way >= 0.0)) {
+      failure_ = PushFailure::far;
+      return std::nullopt;
+    }
+    placement = std::move(place.placement);
+    blocks_.move(place.model, motion, placement);
+    gap = std::max(push, push_of_gap * farthest);
+    // Gaps are closed by now: another mechanism moves blocks farther.
+    if (n > 2) rate_ *= push / farthest;
+  }
+  failure_ = PushFailure::undetermined;
+  return std::nullopt;
+}
+
+bool PushedBlocks::falls_at_failure(double size) {
+  // The squared acceleration by Gauss's principle is convex in the multiplier: golden section.
+  constexpr int sections = 14;
+  constexpr double golden = 0.6180339887498949, range = 3.0, falls = 0.02, programme_gap = 1e-8;
+  if (!failed_) return false;
+  const auto motion = [&](double multiplier) {
+    ConeQuestion question;
+    question.load = failed_->model.steady;
+    for (std::size_t b = 0; b < question.load.size(); ++b)
+      question.load[b] += multiplier * failed_->model.multiplied[b];
+    question.gap = programme_gap;
+    const ConeAnswer answer = failed_->program->solve(question);
+    ++programmes_;
+    if (answer.status != ConeStatus::solved) return 0.0;
+    return largest_motion(answer.velocity, question.load, failed_->program->loaded_bodies());
+  };
+  double low = -range * size, high = range * size;
+  double left = high - golden * (high - low), right = low + golden * (high - low);
+  double at_left = motion(left), at_right = motion(right);
+  for (int n = 0; n < sections; ++n) {
+    if (std::min(at_left, at_right) <= falls) return false;
+    if (at_left < at_right) {
+      high = right;
+      right = std::exchange(left, right - golden * (right - low));
+      at_right = std::exchange(at_left, motion(left));
+    } else {
+      low = left;
+      left = std::exchange(right, left + golden * (high - left));
+      at_left = std::exchange(at_right, motion(right));
+    }
+  }
+  return true;
+}
+
+Vector3 velocity_at(const RigidModel& model, const std::vector<BodyVelocity>& velocity, int block,
+                    const Vector3& place) {
+  const int body = model.body_of[at(block)];
+  if (body < 0) return Vector3::Zero();
+  const RigidMotionOf motion = motion_of(model.bodies[at(body)], velocity[at(body)]);
+  return motion.translation + motion.rotation.cross(place - model.bodies[at(body)].middle);
+}
+
+}  // namespace ashlar
