@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "apps/scene/model/cut_rock.hpp"
+#include "apps/scene/model/joint_table.hpp"
 
 namespace ashlar {
 namespace {
@@ -51,20 +55,11 @@ class FractureFaults {
                     key));
   }
 
-  void check_restitution() {
-    if (!law_.restitution.value_or(std::nullopt) ||
-        scene_.analysis.formulation != SceneAnalysis::Formulation::incremental)
-      return;
-    report(
-        {"restitution"},
-        "restitution of blocks of the incremental formulation (formulation = \"incremental\"), formulation = "
-        "\"total\" is needed");
-  }
-
   void check_springs() {
     if (scene_.contact.springs == SceneContact::Springs::area) return;
     report({"fracture_energy", "tied"},
-           "point springs with a bond per area (springs = \"point\"), springs = \"area\" is needed");
+           "point springs (springs = \"point\", or formulation = \"paper\") with a bond per area, springs "
+           "per area are needed");
   }
 
  private:
@@ -83,27 +78,23 @@ class FractureFaults {
   Diagnostics& diagnostics_;
 };
 
+bool is_of_bond(const SceneJoint& joint) {
+  return joint.made_by_cut && joint.tie;
+}
+
 /// Keys of a [[joint]] on which the checks depend.
-constexpr std::array fracture_keys = {"restitution",
-                                      "fracture_energy",
-                                      "tied",
-                                      "cohesion",
-                                      "tensile_strength",
-                                      "cohesion_residual",
-                                      "normal_stiffness",
-                                      "dilation_angle",
-                                      "damping",
-                                      "shear_stiffness",
-                                      "friction_angle_residual",
-                                      "friction_angle",
-                                      "tensile_strength_residual"};
+constexpr std::array fracture_keys = {"fracture_energy",   "tied",
+                                      "cohesion",          "tensile_strength",
+                                      "cohesion_residual", "normal_stiffness",
+                                      "dilation_angle",    "damping",
+                                      "shear_stiffness",   "friction_angle_residual",
+                                      "friction_angle",    "tensile_strength_residual"};
 
 }  // namespace
 
 void check_fracture(const Scene& scene, const SceneJointLaw& law, const std::string& path,
                     Diagnostics& diagnostics) {
   FractureFaults faults(scene, law, path, diagnostics);
-  faults.check_restitution();
   if (law.tie || law.fracture_energy) faults.check_springs();
   if (!law.fracture_energy) return;
   const auto& [tension, shear] = *law.fracture_energy;
@@ -121,17 +112,55 @@ void check_fracture(const Scene& scene, const SceneJointLaw& law, const std::str
 
 void check_joint_fracture(const Scene& scene, std::size_t joint, Diagnostics& diagnostics) {
   const std::string path = fmt::format("joint.{}", joint);
+  const bool has_own_tie = scene.joint[joint].tie && !is_of_bond(scene.joint[joint]);
   const auto given = [&](const char* key) { return scene.places.contains(fmt::format("{}.{}", path, key)); };
   if (std::none_of(fracture_keys.begin(), fracture_keys.end(), given)) return;
   for (const char* key : {"cohesion", "tensile_strength"}) {
-    if (scene.joint[joint].tie && given(key))
+    if (has_own_tie && given(key))
       diagnostics.error(
           scene.places.key(fmt::format("{}.{}", path, key)),
           fmt::format("{} beside the strength of a tie (both given), only one of both is allowed", key));
   }
-  SceneJointLaw law = scene.contact.law;
-  override_law(law, scene.joint[joint]);
+  const SceneJointLaw law = law_with_joint(scene, joint);
   if (!law.tied) check_fracture(scene, law, path, diagnostics);
+}
+
+SceneJointLaw law_with_joint(const Scene& scene, std::size_t joint) {
+  SceneJointLaw law = scene.contact.law;
+  const SceneJoint& last = scene.joint[joint];
+  bool bonded = is_of_bond(last);
+  for (std::size_t k = 0; k < joint; ++k) {
+    if (!is_of_bond(scene.joint[k]) || scene.joint[k].cut != last.cut) continue;
+    override_law(law, scene.joint[k]);
+    bonded = true;
+  }
+  override_law(law, last);
+  // Of a brittle bond, in place of that of [contact].
+  if (bonded && law.fracture_energy && !law.fracture_energy->given()) law.fracture_energy.reset();
+  return law;
+}
+
+void check_bonded_blocks(const Scene& scene, Diagnostics& diagnostics) {
+  if (!scene.rock || std::none_of(scene.cut.begin(), scene.cut.end(),
+                                  [](const SceneCut& cut) { return cut.bonded.has_value(); }))
+    return;
+  const JointTable table(scene);
+  std::set<std::size_t> reported;
+  for (const auto& [pair, cuts] : scene.rock->common) {
+    const auto bond = std::find_if(cuts.begin(), cuts.end(),
+                                   [&](std::size_t cut) { return scene.cut[cut].bonded.has_value(); });
+    if (bond == cuts.end()) continue;
+    for (const std::size_t k : table.joints_between(pair.first, pair.second)) {
+      const SceneJoint& joint = scene.joint[k];
+      if (is_of_bond(joint) || !(joint.tied || joint.tie) || !reported.insert(k).second) continue;
+      diagnostics.error(
+          scene.places.key(fmt::format("joint.{}.tied", k)),
+          fmt::format("{} beside bonded of cut \"{}\" (both between blocks \"{}\" and \"{}\"), only one of "
+                      "both is allowed",
+                      joint.made_by_cut ? "glued" : "tied", scene.cut[*bond].name,
+                      scene.block[pair.first].name, scene.block[pair.second].name));
+    }
+  }
 }
 
 }  // namespace ashlar

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "apps/scene/expand/piece_blocks.hpp"
 #include "apps/scene/expand/piece_names.hpp"
@@ -177,6 +178,62 @@ void warn_of_extended_joints(const Scene& scene, const CutRock& rock, Diagnostic
   }
 }
 
+// Path of [[joint]] once joints of cuts stand before those of the scene.
+const std::string written_joints = "written joint";
+
+/// A tie that breaks, over all faces of a cut. Of [contact] it keeps friction, restitution and compressive strength.
+SceneJoint joint_of_bond(const SceneCut& cut, const SceneJointLaw& contact) {
+  const SceneBond& bond = *cut.bonded;
+  SceneJoint joint;
+  joint.blocks = {"*", "*"};
+  joint.cut = cut.name;
+  joint.made_by_cut = true;
+  joint.tie = SceneTie{bond.tensile_strength, bond.cohesion};
+  // The springs of a tie, which are automatic.
+  joint.normal_stiffness.emplace(std::nullopt);
+  joint.shear_stiffness.emplace(std::nullopt);
+  joint.friction_angle = bond.friction_angle;
+  if (contact.friction_angle_residual)
+    joint.friction_angle_residual = bond.friction_angle.value_or(contact.friction_angle);
+  joint.dilation_angle = 0.0;
+  joint.damping = 0.0;
+  joint.fracture_energy = bond.fracture_energy;
+  if (!bond.fracture_energy && contact.fracture_energy) joint.fracture_energy = FractureEnergy{};
+  return joint;
+}
+
+bool makes_a_face(const CutRock& rock, std::size_t cut) {
+  return std::any_of(rock.common.begin(), rock.common.end(), [cut](const auto& border) {
+    return std::find(border.second.begin(), border.second.end(), cut) != border.second.end();
+  });
+}
+
+/// Puts the joints of bonded cuts before all others.
+void add_bonds(Scene& scene, const CutRock& rock, Diagnostics& diagnostics) {
+  std::vector<SceneJoint> joints;
+  std::vector<std::string> origins;
+  for (std::size_t k = 0; k < scene.cut.size(); ++k) {
+    const SceneCut& cut = scene.cut[k];
+    if (!cut.bonded) continue;
+    const std::string key = fmt::format("cut.{}.bonded", k);
+    if (!makes_a_face(rock, k))
+      diagnostics.error(scene.places.key(key),
+                        fmt::format("bonded cut makes no face between two blocks (\"{}\"), a cut that "
+                                    "divides a block is needed",
+                                    cut.name));
+    joints.push_back(joint_of_bond(cut, scene.contact.law));
+    origins.push_back(key);
+  }
+  if (joints.empty()) return;
+  scene.places.move_list("joint", written_joints);
+  for (std::size_t k = 0; k < scene.joint.size(); ++k)
+    origins.push_back(fmt::format("{}.{}", written_joints, k));
+  for (std::size_t k = 0; k < origins.size(); ++k)
+    scene.places.record_origin(fmt::format("joint.{}", k), origins[k]);
+  scene.joint.insert(scene.joint.begin(), std::make_move_iterator(joints.begin()),
+                     std::make_move_iterator(joints.end()));
+}
+
 /// Ties the parts divided by glued cuts.
 void add_ties(Scene& scene) {
   for (std::size_t k = 0; k < scene.cut.size(); ++k) {
@@ -188,7 +245,7 @@ void add_ties(Scene& scene) {
     joint.blocks = {"*", "*"};
     joint.cut = scene.cut[k].name;
     joint.tied = true;
-    joint.of_glued_cut = true;
+    joint.made_by_cut = true;
     scene.joint.push_back(std::move(joint));
   }
 }
@@ -217,6 +274,7 @@ void cut_scene(Scene& scene, Diagnostics& diagnostics, Preparation* preparation)
   for (SceneMeasure& measure : scene.measure)
     for (std::string* name : {&measure.block, &measure.pair[0], &measure.pair[1]})
       *name = own_name(scene, *name);
+  add_bonds(scene, *scene.rock, diagnostics);
   add_ties(scene);
 }
 

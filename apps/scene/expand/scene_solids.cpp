@@ -9,10 +9,10 @@
 #include <map>
 #include <stdexcept>
 
+#include "apps/scene/json/analysis_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/meshes/mesh_import.hpp"
-#include "apps/scene/read/analysis_json.hpp"
 #include "apps/scene/read/exact_turn.hpp"
-#include "apps/scene/read/scene_json.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
 #include "geometry/exact/degree_turn.hpp"
 #include "geometry/solid/hull_solid.hpp"

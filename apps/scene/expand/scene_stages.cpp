@@ -288,10 +288,10 @@ class StageCheck {
       error(s, "analysis.type",
             fmt::format("limit analysis in a stage (\"{}\"), \"static\" or \"dynamic\" is needed",
                         name_of(analysis_type_names, analysis.type)));
-    if (analysis.formulation != first.formulation)
+    if (analysis.formulation != first.formulation || analysis.paper != first.paper)
       error(s, "analysis.formulation",
             fmt::format("formulation changes between stages (\"{}\"), that of the first stage is needed",
-                        name_of(formulation_names, analysis.formulation)));
+                        formulation_name(analysis)));
     if (s > 0 && scene_.places.contains(key_of(s, "analysis.initial_state")))
       error(s, "analysis.initial_state",
             fmt::format(

@@ -68,7 +68,7 @@ bool has_multipliers(const Scene& scene) {
   const bool given = scene.contact.law.gives_stiffness();
   const auto any_joint = [&](const auto& is_so) {
     const auto is_one = [&](const SceneJoint& joint) {
-      return is_so(joint.normal_stiffness) || is_so(joint.shear_stiffness);
+      return !joint.made_by_cut && (is_so(joint.normal_stiffness) || is_so(joint.shear_stiffness));
     };
     return std::any_of(scene.joint.begin(), scene.joint.end(), is_one) ||
            std::any_of(scene.stage.begin(), scene.stage.end(), [&](const SceneStage& stage) {

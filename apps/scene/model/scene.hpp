@@ -62,6 +62,7 @@ struct SceneCut {
   int seed = 1;                     ///< >= 0
   double min_volume = 0.0;          ///< m^3, >= 0
   bool glued = false;               ///< blocks on both sides are tied
+  std::optional<SceneBond> bonded;  ///< blocks on both sides are bonded up to a strength; excludes glued
   int most_blocks = 100000;         ///< >= 1, of all blocks of the scene after the cut
   SceneShape solid;                 ///< box, mesh, hull or sphere; kind solid
   std::filesystem::path file;       ///< table of measured joints (disc_table.hpp), as written; kind discs
@@ -181,7 +182,7 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint);
 
 /// True if contact uses multipliers: as the scene specifies; otherwise in statics between blocks whose joints have no
 /// given stiffness, and in dynamics that starts from statics if no joint has. Stages pass on the forces of contact,
-/// so that the result is the same for all.
+/// so that the result is the same for all. Joints of cuts have springs in any case and do not count.
 [[nodiscard]] bool has_multipliers(const Scene& scene);
 
 /// The material of this name, or null.

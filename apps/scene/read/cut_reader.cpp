@@ -83,6 +83,36 @@ void read_discs(TomlTableReader& table, SceneCut& cut) {
   cut.file = file;
 }
 
+/// `fracture_energy` of a bond: of both kinds, or a number for each.
+void read_energy_of_bond(TomlTableReader& table, SceneBond& bond) {
+  FractureEnergy read;
+  if (table.table_at("fracture_energy") != nullptr) {
+    TomlTableReader energy = table.table_or_empty("fracture_energy");
+    for (const char* key : {"tension", "shear"}) energy.require(key);
+    energy.read_number("tension", read.tension, range::positive);
+    energy.read_number("shear", read.shear, range::positive);
+    bond.fracture_energy = read;
+    return;
+  }
+  constexpr NumberRange words = {0.0, range::no_limit, false, false, "a number > 0 or { tension, shear }"};
+  if (!table.read_number("fracture_energy", read.tension, words)) return;
+  read.shear = read.tension;
+  bond.fracture_energy = read;
+}
+
+void read_bond(TomlTableReader& table, SceneCut& cut) {
+  std::optional<TomlTableReader> reader = table.table("bonded");
+  if (!reader) return;
+  if (cut.glued) table.error_at_key("bonded", "bonded beside glued (both given); give one of both");
+  for (const char* key : {"tensile_strength", "cohesion"}) reader->require(key);
+  SceneBond bond;
+  reader->read_number("tensile_strength", bond.tensile_strength, range::positive);
+  reader->read_number("cohesion", bond.cohesion, range::positive);
+  reader->read_number("friction_angle", bond.friction_angle, range::zero_to_below_90);
+  read_energy_of_bond(*reader, bond);
+  cut.bonded = bond;
+}
+
 /// Refuses keys that apply to planes only.
 void refuse_plane_keys(TomlTableReader& table, const char* kind) {
   for (const char* key :
@@ -126,6 +156,7 @@ SceneCut read_cut(TomlTableReader& table) {
   }
   table.read_number("min_volume", cut.min_volume, range::not_negative);
   table.read_bool("glued", cut.glued);
+  read_bond(table, cut);
   table.read_integer("most_blocks", cut.most_blocks, 1, largest_integer);
   return cut;
 }

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "apps/scene/check/scene_checks.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/model/joint_table.hpp"
-#include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
 namespace ashlar::test::fracture_checks_test {
@@ -52,8 +52,12 @@ TEST(FractureChecks, FaultsOfATieAreReportedAtItsKeys) {
               ElementsAre(HasSubstr("true or false or { tension, shear } is needed")));
   EXPECT_THAT(faults_of("tied = { tension = 1, shear = 1 }\ncohesion = 2"),
               ElementsAre(StartsWith("s.toml:9:1: error: cohesion beside the strength of a tie")));
-  EXPECT_THAT(faults_of("tied = { tension = 1, shear = 1 }", {"contact.springs=point"}),
-              ElementsAre(StartsWith("s.toml:8:1: error: point springs with a bond per area")));
+  for (const char* points : {"contact.springs=point", "analysis.formulation=paper"})
+    EXPECT_THAT(
+        faults_of("tied = { tension = 1, shear = 1 }", {points}),
+        ElementsAre(StartsWith("s.toml:8:1: error: point springs (springs = \"point\", or formulation = "
+                               "\"paper\") with a bond per area")))
+        << points;
 }
 
 TEST(FractureChecks, EachStrengthNeedsItsEnergyAndSpringsThatHoldLess) {
@@ -78,11 +82,36 @@ TEST(FractureChecks, EachStrengthNeedsItsEnergyAndSpringsThatHoldLess) {
         << excluded;
 }
 
-TEST(FractureChecks, RestitutionIsAShareAndNotOfTheIncrementalFormulation) {
+TEST(FractureChecks, TheLawOfAJointIsOverTheBondOfItsCut) {
+  Scene scene;
+  scene.contact.law.friction_angle = 30.0;
+  SceneJoint bond;
+  bond.cut = "cells";
+  bond.made_by_cut = true;
+  bond.tie = SceneTie{1e6, 2e6};
+  bond.fracture_energy = FractureEnergy{};  // brittle
+  SceneJoint same_cut, other_cut;
+  same_cut.cut = "cells";
+  same_cut.tensile_strength = 5e5;
+  other_cut.cut = "bedding";
+  other_cut.cohesion = 7.0;
+  scene.joint = {bond, same_cut, other_cut};
+  const SceneJointLaw of_bond = law_with_joint(scene, 0);
+  EXPECT_EQ(of_bond.tensile_strength, 1e6);
+  EXPECT_FALSE(of_bond.fracture_energy);
+  const SceneJointLaw changed = law_with_joint(scene, 1);
+  EXPECT_EQ(changed.tensile_strength, 5e5);
+  EXPECT_EQ(changed.cohesion, 2e6);
+  EXPECT_EQ(changed.friction_angle, 30.0);
+  EXPECT_FALSE(changed.fracture_energy);
+  const SceneJointLaw other = law_with_joint(scene, 2);
+  EXPECT_EQ(other.tensile_strength, 0.0);
+  EXPECT_EQ(other.cohesion, 7.0);
+}
+
+TEST(FractureChecks, RestitutionIsAShare) {
   EXPECT_THAT(faults_of("restitution = 0.5"), IsEmpty());
   EXPECT_THAT(faults_of("restitution = 1.5"), ElementsAre(StartsWith("s.toml:8:15: error: restitution")));
-  EXPECT_THAT(faults_of("restitution = 0.5", {"analysis.formulation=incremental"}),
-              ElementsAre(HasSubstr("restitution of blocks of the incremental formulation")));
 }
 
 TEST(FractureChecks, KeysAreWrittenAsTheyWereRead) {

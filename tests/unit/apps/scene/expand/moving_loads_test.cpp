@@ -5,7 +5,7 @@
 #include <map>
 
 #include "apps/scene/assemble/scene_loading.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
 namespace ashlar::test::moving_loads_test {

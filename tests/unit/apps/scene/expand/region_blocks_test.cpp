@@ -4,8 +4,8 @@
 
 #include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/model/joint_table.hpp"
-#include "apps/scene/read/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
 namespace ashlar::test::region_blocks_test {

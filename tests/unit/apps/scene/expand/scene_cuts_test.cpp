@@ -5,9 +5,9 @@
 
 #include "apps/scene/assemble/build_simulation.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
-#include "apps/scene/read/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 #include "unit/apps/scene/expand/sample_rock.hpp"
