@@ -5,7 +5,7 @@
 #include "apps/scene/assemble/build_simulation.hpp"
 #include "apps/scene/assemble/initial_state.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
-#include "apps/scene/check/loose_blocks.hpp"
+#include "apps/scene/check/warnings/loose_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/scene.hpp"

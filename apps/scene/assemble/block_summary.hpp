@@ -1,4 +1,4 @@
-// Numbers of every block that a run needs before ranks share the blocks.
+// Numbers of every block that a run needs before processes share the blocks.
 #pragma once
 
 #include "geometry/boxes/box.hpp"

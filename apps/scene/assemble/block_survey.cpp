@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "apps/scene/check/turned_supports.hpp"
+#include "apps/scene/check/warnings/turned_supports.hpp"
 #include "geometry/index.hpp"
 #include "solver/ranks/rank_messages.hpp"
 

@@ -21,4 +21,11 @@ std::vector<bool> multiplied_blocks(const Scene& scene) {
   return multiplied;
 }
 
+std::vector<bool> pushed_by_loads(const Scene& scene) {
+  std::vector<bool> pushed;
+  for (std::size_t k = 0; k < scene.block.size(); ++k)
+    pushed.push_back(name_any(scene, scene.analysis.pushover.blocks, k));
+  return pushed;
+}
+
 }  // namespace ashlar

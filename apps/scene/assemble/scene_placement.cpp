@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/scene/assemble/quiet_boundaries.hpp"
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/support_lines.hpp"
 #include "apps/scene/model/model_position.hpp"
@@ -17,6 +16,7 @@
 #include "apps/scene/read/model_origin.hpp"
 #include "geometry/cutting/cut_plane.hpp"
 #include "geometry/solid/shapes.hpp"
+#include "solver/ground/ground_boundary.hpp"
 
 namespace ashlar {
 namespace {
@@ -302,6 +302,7 @@ class ScenePlacer {
     for (SceneAnalysis::Gravity& row : analysis.gravity_history) turn(row.value);
     if (turned_) analysis.gravity_file.reset();
     turn(analysis.movement.direction);
+    turn(analysis.pushover.direction);
   }
   void place(SceneStage& stage) const {
     turn(stage.analysis);

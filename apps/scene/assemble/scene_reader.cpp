@@ -19,12 +19,14 @@
 #include "apps/scene/read/bolt_reader.hpp"
 #include "apps/scene/read/boundary_reader.hpp"
 #include "apps/scene/read/cut_reader.hpp"
+#include "apps/scene/read/formulation_reader.hpp"
 #include "apps/scene/read/history_reader.hpp"
 #include "apps/scene/read/initial_stress_reader.hpp"
 #include "apps/scene/read/joint_reader.hpp"
 #include "apps/scene/read/measure_reader.hpp"
 #include "apps/scene/read/model_origin.hpp"
 #include "apps/scene/read/moving_load_reader.hpp"
+#include "apps/scene/read/pushover_reader.hpp"
 #include "apps/scene/read/region_reader.hpp"
 #include "apps/scene/read/water_reader.hpp"
 #include "apps/scene/toml/fault_text.hpp"
@@ -76,7 +78,7 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_number("allowed_displacement", analysis.allowed_displacement, range::positive);
   table.read_choice("integrator", analysis.integrator, integrator_names);
   table.read_number("spectral_radius", analysis.spectral_radius, range::zero_to_one);
-  table.read_choice("formulation", analysis.formulation, formulation_names);
+  read_formulation(table, analysis);
   table.read_choice("initial_state", analysis.initial_state, initial_state_names);
   // For a stage: one form of gravity replaces the other.
   if (table.read_vector("gravity", analysis.gravity)) analysis.gravity_history.clear();
@@ -93,6 +95,7 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   read_factor_search(table.table_or_empty("safety"), "joints", analysis.safety);
   read_factor_search(table.table_or_empty("capacity"), "blocks", analysis.capacity);
   read_support_search(table.table_or_empty("movement"), analysis.movement);
+  read_pushover(table, analysis);
   table.read_bool("sleeping", analysis.sleeping);
   table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
 }
@@ -232,6 +235,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
                         [](const SceneAssign& later) { return later.inside && has_history(later); }));
   else
     scene.analysis = scene.stage.front().analysis;
+  imply_contact(scene, top.reading().diagnostics());
   keep_given_orders(scene);
   if (!has_blocks) top.error_at_table("no block (0), at least one [[block]] is needed");
 }

@@ -224,6 +224,7 @@ blocks = ["A"]
 dip = 0
 dip_direction = 0
 spacing = { mean = 1 }
+bonded = { tensile_strength = 1, cohesion = 1, fracture_energy = { tension = 1, shear = 1 } }
 [[cut]]
 name = "inside a box"
 blocks = ["A"]
@@ -244,6 +245,7 @@ solid = { sphere = { radius = 1 } }
 name = "cells"
 blocks = ["A"]
 voronoi = { count = 2 }
+bonded = { tensile_strength = 1, cohesion = 1 }
 [[bolt]]
 name = "bolt"
 area = 1

@@ -45,8 +45,6 @@ void check_accuracy(const Scene& scene, Diagnostics& diagnostics) {
         fmt::format("accuracy of an analysis with stages ({}), one without stages is needed: choose `order` "
                     "and `time_step`",
                     scene.stage.size()));
-  if (analysis.formulation == SceneAnalysis::Formulation::incremental)
-    refuse("accuracy of the incremental formulation (\"incremental\"), formulation = \"total\" is needed");
   if (analysis.automatic_step && !scene.boundary.empty())
     diagnostics.error(
         scene.places.value("boundary.0"),

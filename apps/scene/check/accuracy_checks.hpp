@@ -6,7 +6,7 @@
 
 namespace ashlar {
 
-/// Reports an accuracy of a search, of stages or of incremental blocks, which have none; an automatic step beside ground
+/// Reports an accuracy of a search or of stages, which have none; an automatic step beside ground
 /// that is computed beforehand; and "auto" without an accuracy.
 void check_accuracy(const Scene& scene, Diagnostics& diagnostics);
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/scene/expand/ground_layers.hpp"
+#include "apps/scene/expand/ground_of_scene.hpp"
 #include "mechanics/supports/quiet_faces.hpp"
 
 namespace ashlar {
@@ -68,19 +68,21 @@ class BoundaryCheck {
                          "wave of a free-field boundary, it belongs to the quiet boundary below it");
     for (const SceneBoundary& other : scene_.boundary)
       if (!is_readable(other.plane)) return;
-    const auto base = base_of_side(scene_, boundary);
+    const std::vector<GroundBoundary> boundaries = ground_boundaries_of(scene_);
+    const auto base = base_of_side(boundaries, boundary);
     if (!base)
       return error(
           boundary, ".kind",
           "free-field without a quiet boundary at right angles to it, one below the ground is needed");
     std::vector<const Polyhedron*> solids;
     for (const std::optional<Polyhedron>& solid : solids_) solids.push_back(solid ? &*solid : nullptr);
-    const SideLayers layers = layers_beside(scene_, boundary, *base, solids);
-    if (!layers.fault.empty())
+    const SideLayers layers =
+        layers_beside(boundaries[boundary].plane, boundaries[*base].plane, ground_blocks_of(scene_, solids));
+    if (layers.fault)
       error(
           boundary, ".plane",
           fmt::format("free-field has no column of ground beside it ({}), faces from the base up are needed",
-                      layers.fault));
+                      words_of(*layers.fault)));
   }
 
   void check_block(std::size_t boundary, std::size_t k) {
@@ -170,9 +172,6 @@ void warn_of_idle_waves(const Scene& scene, Diagnostics& diagnostics) {
 void check_boundaries(const ExpandedScene& stage, const std::vector<std::optional<Polyhedron>>& solids,
                       Diagnostics& diagnostics) {
   if (stage.boundary.empty()) return;
-  if (stage.analysis.formulation == SceneAnalysis::Formulation::incremental)
-    diagnostics.error(stage.places.key("boundary.0"),
-                      "boundary of incremental blocks (\"incremental\"), formulation = \"total\" is needed");
   BoundaryCheck check(stage, solids, diagnostics);
   for (std::size_t i = 0; i < stage.boundary.size(); ++i) check.check(i);
 }

@@ -11,8 +11,7 @@
 namespace ashlar {
 
 /// Reports boundaries that meet no face of a moving block, faces of rigid blocks or of blocks with moving supports,
-/// faces with a support or another boundary, the incremental formulation, and free-field boundaries without a base, with
-/// gaps, or with a wave.
+/// faces with a support or another boundary, and free-field boundaries without a base, with gaps, or with a wave.
 /// @param stage a scene of one stage. @param solids by block; empty: not built
 void check_boundaries(const ExpandedScene& stage, const std::vector<std::optional<Polyhedron>>& solids,
                       Diagnostics& diagnostics);

@@ -51,6 +51,7 @@ std::string analysis_without_crushing(const Scene& scene) {
     return fmt::format("an analysis of type \"{}\"", name_of(analysis_type_names, analysis.type));
   if (analysis.method == SceneAnalysis::Method::elastic) return "an analysis of method \"elastic\"";
   if (!analysis.movement.supports.empty()) return "a movement of supports";
+  if (analysis.type == SceneAnalysis::Type::pushover) return "a pushover";
   return "";
 }
 

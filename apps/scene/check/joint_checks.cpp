@@ -62,11 +62,11 @@ void check_joint_laws(const Scene& scene, Diagnostics& diagnostics) {
              scene.places.contains(fmt::format("{}.{}_residual", path, key));
     });
     if (!given && !scene.places.contains(path + ".dilation_angle")) continue;
-    SceneJointLaw law = scene.contact.law;
-    override_law(law, scene.joint[i]);
+    const SceneJointLaw law = law_with_joint(scene, i);
     check_residuals(scene, law, path, diagnostics);
     check_dilation(scene, law, path, diagnostics);
   }
+  check_bonded_blocks(scene, diagnostics);
 }
 
 }  // namespace ashlar

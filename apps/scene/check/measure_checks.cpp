@@ -11,16 +11,11 @@
 
 namespace ashlar {
 
-void check_group_measures(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks) {
+void check_group_measures(const Scene& scene, Diagnostics& of_blocks) {
   for (std::size_t i = 0; i < scene.measure.size(); ++i) {
     const SceneMeasure& measure = scene.measure[i];
     const std::string path = fmt::format("measure.{}", i);
     if (!measure.drift && !measure.crack) continue;
-    if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
-      diagnostics.error(
-          scene.places.key(path),
-          fmt::format("measure of {} of incremental blocks (\"{}\"), formulation = \"total\" is needed",
-                      measure.drift ? "the drift" : "cracks", measure.name));
     if (measure.drift)
       check_patterns(scene, path + ".drift.blocks", measure.drift->blocks, false, of_blocks, "drift");
     if (!measure.crack) continue;

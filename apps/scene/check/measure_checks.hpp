@@ -10,9 +10,8 @@
 
 namespace ashlar {
 
-/// Reports names that match nothing, and drifts and cracks of incremental blocks. @param of_blocks receives faults of
-/// names
-void check_group_measures(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks);
+/// Reports names that match nothing. @param of_blocks receives faults of names
+void check_group_measures(const Scene& scene, Diagnostics& of_blocks);
 
 /// Reports levels of drifts that cut none of their blocks. @param solids placed, one per block
 void check_levels(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,

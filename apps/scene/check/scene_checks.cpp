@@ -11,6 +11,7 @@
 
 #include "apps/scene/check/accuracy_checks.hpp"
 #include "apps/scene/check/crushing_checks.hpp"
+#include "apps/scene/check/formulation_checks.hpp"
 #include "apps/scene/check/joint_checks.hpp"
 #include "apps/scene/check/measure_checks.hpp"
 #include "apps/scene/check/water_checks.hpp"
@@ -106,7 +107,7 @@ void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Di
   for (std::size_t i = 0; i < scene.joint.size(); ++i) {
     const SceneJoint& joint = scene.joint[i];
     if (joint.blocks[0].empty() && joint.blocks[1].empty()) continue;  // not read
-    if (joint.of_glued_cut) continue;
+    if (joint.made_by_cut) continue;
     const Place place = scene.places.value(entry_key("joint", i, "blocks"));
     bool all_match = true;
     for (const std::size_t side : {0U, 1U}) {
@@ -166,44 +167,10 @@ void check_rigid_blocks(const Scene& scene, Diagnostics& diagnostics) {
     };
     if (!block.fix.empty())
       refuse("fix", "a block of order 0 has no supports", "fixed = true, or an order from 1 on is needed");
-    if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
-      refuse("order", "a block of order 0 has no incremental formulation", "an order from 1 on is needed");
     if (scene.analysis.integrator == SceneAnalysis::Integrator::generalized_alpha)
       refuse("order", "generalized-alpha does not move blocks of order 0",
              "integrator = \"dda\" or \"average-acceleration\", or an order from 1 on is needed");
   }
-}
-
-// Reports keys that have no meaning for the incremental formulation.
-void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
-  if (scene.analysis.formulation != SceneAnalysis::Formulation::incremental) return;
-  const auto refuse = [&](const std::string& key, const std::string& what) {
-    diagnostics.error(scene.places.value(key),
-                      what + ", leave it out or choose analysis.formulation = \"total\"");
-  };
-  if (is_static(scene.analysis))
-    refuse("analysis.type", fmt::format("static analysis of incremental blocks (type = \"{}\")",
-                                        name_of(analysis_type_names, scene.analysis.type)));
-  if (scene.analysis.initial_state == SceneAnalysis::InitialState::statics)
-    refuse("analysis.initial_state", "static analysis of incremental blocks (initial_state = \"static\")");
-  if (scene.contact.surface == SceneContact::Surface::curved && scene.places.contains("contact.surface"))
-    refuse("contact.surface", "the surface of an incremental block is its flat sub-faces (\"curved\")");
-  if (scene.output.curved)
-    refuse("output.curved", "the surface of an incremental block is its flat sub-faces (true)");
-  if (scene.output.solid) refuse("output.solid", "points inside an incremental block are not tracked (true)");
-  if (scene.contact.chord_tolerance)
-    refuse("contact.chord_tolerance",
-           fmt::format("the sub-faces of an incremental block are fixed, see contact.subdivisions ({})",
-                       *scene.contact.chord_tolerance));
-  for (std::size_t i = 0; i < scene.measure.size(); ++i)
-    if (!scene.measure[i].block.empty() && !scene.measure[i].point)
-      refuse(entry_key("measure", i, "block"),
-             fmt::format("an incremental block is measured at points only (\"{}\" has none)",
-                         scene.measure[i].name));
-  for (std::size_t i = 0; i < scene.material.size(); ++i)
-    if (scene.material[i].elasticity == SceneMaterial::Elasticity::st_venant_kirchhoff)
-      refuse(entry_key("material", i, "elasticity"),
-             "an incremental block accumulates linear stress (\"st-venant-kirchhoff\")");
 }
 
 // A measure's name is used in columns of history.csv beside those of the totals.
@@ -342,7 +309,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
                         fmt::format("measure of a block and itself (\"{}\"), two different blocks are needed",
                                     measure.pair[0]));
   }
-  check_group_measures(scene, diagnostics, of_blocks);
+  check_group_measures(scene, of_blocks);
   check_joints(scene, blocks, of_blocks);
   check_joint_laws(scene, diagnostics);
   check_compressive_strengths(scene, diagnostics);

@@ -90,12 +90,6 @@ void check_limits(const ExpandedScene& scene, const std::vector<std::optional<Po
   check_length("distance", scene.contact.distance, least, scene, diagnostics);
   check_length("penetration_tolerance", scene.contact.penetration_tolerance, least, scene, diagnostics);
   check_length("allowed_depth", scene.contact.allowed_depth, least, scene, diagnostics);
-  if (scene.contact.allowed_overlap > 0.0 &&
-      scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
-    diagnostics.error(
-        scene.places.value("contact.allowed_overlap"),
-        "allowed_overlap with formulation \"incremental\", whose blocks do not keep where they were "
-        "placed; only total is allowed");
   const double shortest = rounding * scene.analysis.end_time;
   if (scene.analysis.time_step > 0.0 && scene.analysis.time_step < shortest)
     diagnostics.error(scene.places.value("analysis.time_step"),

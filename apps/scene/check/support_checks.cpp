@@ -43,14 +43,16 @@ void warn_of_idle_support_keys(const Scene& scene, Diagnostics& diagnostics) {
 
 void check_analysis(const Scene& scene, Diagnostics& diagnostics) {
   const SceneAnalysis& analysis = scene.analysis;
-  if (analysis.formulation == SceneAnalysis::Formulation::incremental)
-    diagnostics.error(scene.places.value("analysis.formulation"),
-                      "bolts and props of incremental blocks (\"incremental\"), \"total\" is needed");
   if (analysis.type == SceneAnalysis::Type::thrust && !analysis.movement.supports.empty())
     diagnostics.error(
         scene.places.value("analysis.movement.supports"),
         fmt::format("movements of supports with bolts or props ({} named), leave out movement or them",
                     analysis.movement.supports.size()));
+  if (analysis.type == SceneAnalysis::Type::pushover)
+    diagnostics.error(
+        scene.places.value("analysis.type"),
+        fmt::format("a pushover with bolts or props ({}), which do not follow it: leave them out",
+                    scene.bolt.size() + scene.prop.size()));
 }
 
 /// True if the analysis is one of plastic limits by the scene's own choice.

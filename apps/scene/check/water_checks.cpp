@@ -57,9 +57,6 @@ void check_water(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_b
   for (std::size_t i = 0; i < scene.water.size(); ++i) {
     const SceneWater& water = scene.water[i];
     const std::string path = fmt::format("water.{}", i);
-    if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
-      diagnostics.error(scene.places.key(path),
-                        "water on blocks of the incremental formulation, formulation = \"total\" is needed");
     check_level(scene, water, path, diagnostics);
     check_patterns(scene, path + ".joints", water.joints, true, of_blocks, "water");
     check_patterns(scene, path + ".faces", water.faces, false, of_blocks, "water");
@@ -70,10 +67,6 @@ void check_initial_stress(const Scene& scene, Diagnostics& diagnostics, Diagnost
   const SceneInitialStress& initial = scene.initial_stress;
   if (!initial.given()) return;
   check_patterns(scene, "initial_stress.blocks", initial.blocks, false, of_blocks, "initial_stress");
-  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
-    diagnostics.error(
-        scene.places.key("initial_stress"),
-        "initial stress in blocks of the incremental formulation, formulation = \"total\" is needed");
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     const SceneMaterial* material = find_material(scene, block.material);

@@ -14,7 +14,7 @@ namespace ashlar {
 void check_patterns(const Scene& scene, const std::string& key, const std::vector<std::string>& patterns,
                     bool of_cuts, Diagnostics& of_blocks, const char* what);
 
-/// Reports names that match nothing, a level without height over a place, and water on incremental blocks.
+/// Reports names that match nothing, and a level without height over a place.
 /// @param of_blocks receives faults of names
 void check_water(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks);
 

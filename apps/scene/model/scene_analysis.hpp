@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/model/scene_pushover.hpp"
 #include "apps/scene/model/scene_record.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -25,6 +26,7 @@ struct SceneAnalysis {
     safety,    ///< "factor-of-safety": static analyses with reduced strength
     capacity,  ///< "capacity": static analyses with increased load
     thrust,    ///< "thrust": least and largest thrust on supports, and their range of movement
+    pushover,  ///< "pushover": multiplier of horizontal forces along the mechanism
   };
   /// Method of a search for a factor (notes/factor_of_safety.md).
   enum class Method {
@@ -37,7 +39,10 @@ struct SceneAnalysis {
     average_acceleration,  ///< "average-acceleration": Newmark beta 1/4, gamma 1/2
     generalized_alpha,     ///< "generalized-alpha": spectral radius at infinity is spectral_radius
   };
-  enum class Formulation { total, incremental };
+  enum class Formulation {
+    total,        ///< "total": polynomials in the reference configuration
+    incremental,  ///< "incremental", and "paper" (see `paper`): polynomials in the coordinates of each step's start
+  };
   enum class InitialState {
     as_placed,    ///< "as-placed": undeformed
     equilibrium,  ///< "equilibrium": each supported block first settles under gravity, without contacts
@@ -78,6 +83,7 @@ struct SceneAnalysis {
   Integrator integrator = Integrator::dda;
   double spectral_radius = 0.8;  ///< 0 to 1; only used by generalized-alpha
   Formulation formulation = Formulation::total;
+  bool paper = false;  ///< formulation = "paper": incremental, and [contact] has point springs
   InitialState initial_state = InitialState::as_placed;
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2, unless it has a history
   std::vector<Gravity> gravity_history;        ///< times increase, linear between; empty: constant
@@ -90,6 +96,8 @@ struct SceneAnalysis {
   FactorSearch safety;                         ///< of type safety
   FactorSearch capacity;                       ///< of type capacity
   SupportSearch movement;                      ///< of type thrust
+  ScenePushover pushover;                      ///< of type pushover
+  SceneSpectrum spectrum;                      ///< of type pushover
   /// m, > 0, of types safety and capacity: blocks that yield by more do not stand; empty: a hundredth of the size of the
   /// smallest block that can move
   std::optional<double> allowed_displacement;

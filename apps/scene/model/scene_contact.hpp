@@ -16,6 +16,14 @@ struct SceneTie {
   double shear = 0.0;    ///< Pa, > 0
 };
 
+/// Strength of the faces that a cut makes: a tie that breaks, with the springs of a tie.
+struct SceneBond {
+  double tensile_strength = 0.0;                  ///< Pa, > 0; required
+  double cohesion = 0.0;                          ///< Pa, > 0; required
+  std::optional<double> friction_angle;           ///< deg, of the bond and after it; empty: that of [contact]
+  std::optional<FractureEnergy> fracture_energy;  ///< J/m^2, both > 0; empty: strength is lost at once
+};
+
 /// The law between the faces of two blocks. Default strengths are zero: a joint's strength must be stated.
 struct SceneJointLaw {
   std::optional<double> normal_stiffness;  ///< Pa/m (area springs) or N/m (point springs), > 0; empty: auto
@@ -42,8 +50,8 @@ struct SceneContact {
   enum class Springs { area, point };
   enum class Surface { curved, flat };
 
-  Springs springs = Springs::area;
-  Surface surface = Surface::curved;
+  Springs springs = Springs::area;        ///< point with formulation = "paper"
+  Surface surface = Surface::curved;      ///< flat with formulation = "incremental" or "paper"
   SceneJointLaw law;                      ///< keys of the same names, for pairs without a [[joint]]
   std::optional<double> distance;         ///< m, > 0; empty: auto
   std::optional<double> angle;            ///< deg, 0 to 45; empty: auto
@@ -61,8 +69,7 @@ struct SceneJoint {
   std::array<std::string, 2> blocks;  ///< names or globs (* ? [...]), in any order; match at least one pair
   std::string cut;  ///< if not empty, only pairs divided by this [[cut]]; blocks are then "*" by default
   std::optional<SceneRegion> inside;  ///< only pairs with both blocks inside; blocks are then "*" by default
-  bool of_glued_cut = false;  ///< made by the program, not by the scene: a [[cut]] with `glued` ties the
-                              ///< parts
+  bool made_by_cut = false;           ///< by the program, not by the scene: `glued` or `bonded` of a [[cut]]
   /// Outer optional empty: not given. Inner optional empty: given as "auto".
   std::optional<std::optional<double>> normal_stiffness;
   std::optional<std::optional<double>> shear_stiffness;

@@ -11,12 +11,13 @@ namespace ashlar {
 template <typename Choice, std::size_t count>
 using ChoiceNames = std::array<std::pair<const char*, Choice>, count>;
 
-inline constexpr ChoiceNames<SceneAnalysis::Type, 5> analysis_type_names = {
+inline constexpr ChoiceNames<SceneAnalysis::Type, 6> analysis_type_names = {
     {{"dynamic", SceneAnalysis::Type::dynamic},
      {"static", SceneAnalysis::Type::statics},
      {"factor-of-safety", SceneAnalysis::Type::safety},
      {"capacity", SceneAnalysis::Type::capacity},
-     {"thrust", SceneAnalysis::Type::thrust}}};
+     {"thrust", SceneAnalysis::Type::thrust},
+     {"pushover", SceneAnalysis::Type::pushover}}};
 
 inline constexpr ChoiceNames<SceneAnalysis::Method, 3> method_names = {
     {{"auto", SceneAnalysis::Method::automatic},
@@ -28,13 +29,33 @@ inline constexpr ChoiceNames<SceneAnalysis::Integrator, 3> integrator_names = {
      {"average-acceleration", SceneAnalysis::Integrator::average_acceleration},
      {"generalized-alpha", SceneAnalysis::Integrator::generalized_alpha}}};
 
-inline constexpr ChoiceNames<SceneAnalysis::Formulation, 2> formulation_names = {
-    {{"total", SceneAnalysis::Formulation::total}, {"incremental", SceneAnalysis::Formulation::incremental}}};
+/// The members of SceneAnalysis that the key `formulation` determines.
+struct FormulationChoice {
+  SceneAnalysis::Formulation formulation;
+  bool paper;
+
+  friend constexpr bool operator==(const FormulationChoice&, const FormulationChoice&) = default;
+};
+
+inline constexpr ChoiceNames<FormulationChoice, 3> formulation_names = {
+    {{"total", {SceneAnalysis::Formulation::total, false}},
+     {"incremental", {SceneAnalysis::Formulation::incremental, false}},
+     {"paper", {SceneAnalysis::Formulation::incremental, true}}}};
 
 inline constexpr ChoiceNames<SceneAnalysis::InitialState, 3> initial_state_names = {
     {{"as-placed", SceneAnalysis::InitialState::as_placed},
      {"equilibrium", SceneAnalysis::InitialState::equilibrium},
      {"static", SceneAnalysis::InitialState::statics}}};
+
+/// Codes of a spectrum.
+inline constexpr ChoiceNames<SceneSpectrum::Source, 2> spectrum_code_names = {
+    {{"ec8", SceneSpectrum::Source::ec8}, {"ntc2018", SceneSpectrum::Source::ntc2018}}};
+
+inline constexpr ChoiceNames<SceneSpectrum::Soil, 5> soil_names = {{{"A", SceneSpectrum::Soil::a},
+                                                                    {"B", SceneSpectrum::Soil::b},
+                                                                    {"C", SceneSpectrum::Soil::c},
+                                                                    {"D", SceneSpectrum::Soil::d},
+                                                                    {"E", SceneSpectrum::Soil::e}}};
 
 inline constexpr ChoiceNames<SceneAnalysis::Solver, 3> solver_names = {
     {{"auto", SceneAnalysis::Solver::automatic},
@@ -89,6 +110,11 @@ template <typename Choice, std::size_t count>
   for (const auto& [name, value] : names)
     if (value == choice) return name;
   return "";
+}
+
+/// The word of an analysis' formulation.
+[[nodiscard]] constexpr const char* formulation_name(const SceneAnalysis& analysis) {
+  return name_of(formulation_names, {analysis.formulation, analysis.paper});
 }
 
 }  // namespace ashlar

@@ -28,6 +28,7 @@ inline constexpr NumberRange any_number = {-no_limit, no_limit, false, false, "a
 inline constexpr NumberRange positive = {0.0, no_limit, false, false, "a number > 0"};
 inline constexpr NumberRange positive_length = {0.0, largest_coordinate, false, true,
                                                 "a number > 0 and <= 1e150"};
+inline constexpr NumberRange at_least_one = {1.0, no_limit, true, false, "a number >= 1"};
 inline constexpr NumberRange not_negative = {0.0, no_limit, true, false, "a number >= 0"};
 inline constexpr NumberRange positive_to_one = {0.0, 1.0, false, true, "a number > 0 and <= 1"};
 inline constexpr NumberRange zero_to_one = {0.0, 1.0, true, true, "a number from 0 to 1"};

@@ -1,7 +1,7 @@
 // analysis.gravity_history as users write it, and runs under it.
 #include <gmock/gmock.h>
 
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"

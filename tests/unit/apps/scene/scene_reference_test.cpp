@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "apps/scene/assemble/scene_schema.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
@@ -61,6 +61,8 @@ solid = { hull = {} }
 solid = { sphere = {} }
 [[cut]]
 voronoi = {}
+[[cut]]
+bonded = { fracture_energy = {} }
 )";
 
 struct Row {
@@ -116,7 +118,8 @@ std::set<std::string> known_keys() {
   std::string text = fmt::format("unknown = 0\n{}", least_scene);
   text.replace(
       text.find("[analysis]\n"), 11,
-      "[analysis]\nsafety = { tolerance = 1 }\ncapacity = { tolerance = 1 }\nmovement = { limit = 1 }\n");
+      "[analysis]\nsafety = { tolerance = 1 }\ncapacity = { tolerance = 1 }\nmovement = { limit = 1 }\n"
+      "pushover = { limit = 1 }\nspectrum = { damping = 5 }\n");
   for (const std::string header :
        {"[analysis]\n", "[contact]\n", "[[joint]]\n", "[[material]]\n", "[[block]]\n", "[[block.fix]]\n",
         "[[block.load]]\n", "[[masonry]]\n", "[[assign]]\n", "[[cut]]\n", "[[load]]\n", "[[bolt]]\n",

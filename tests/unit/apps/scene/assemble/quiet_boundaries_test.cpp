@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/scene/assemble/build_simulation.hpp"
-#include "apps/scene/expand/ground_layers.hpp"
+#include "apps/scene/expand/ground_of_scene.hpp"
 
 namespace ashlar::test::quiet_boundaries_test {
 namespace {
@@ -72,10 +72,11 @@ class QuietScene {
 TEST(QuietBoundaries, LayersAreThoseOfTheBlocksBeside) {
   const QuietScene scene;
   const Scene& given = scene.loaded().scene;
-  ASSERT_EQ(base_of_side(given, 1), 0U);
+  const std::vector<GroundBoundary> boundaries = ground_boundaries_of(given);
+  ASSERT_EQ(base_of_side(boundaries, 1), 0U);
   const SideLayers layers =
-      layers_beside(given, 1, 0, {&scene.loaded().solids[0], &scene.loaded().solids[1]});
-  EXPECT_EQ(layers.fault, "");
+      layers_beside(boundaries[1].plane, boundaries[0].plane, ground_blocks_of(given, scene.loaded().solids));
+  EXPECT_FALSE(layers.fault);
   ASSERT_EQ(layers.layers.size(), 2U);
   EXPECT_EQ(layers.layers[0].block, 0U);
   EXPECT_EQ(layers.layers[1].block, 1U);

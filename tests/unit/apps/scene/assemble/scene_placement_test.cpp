@@ -8,7 +8,7 @@
 #include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "geometry/boxes/box.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/scene/assemble/placed_scenes.hpp"

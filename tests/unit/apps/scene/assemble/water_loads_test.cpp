@@ -41,7 +41,7 @@ unit_weight = 1000
 class WaterOfScene {
  public:
   explicit WaterOfScene(const std::string& text) : loaded_(load_scene_text(text, "s.toml", {}, faults_)) {
-    if (loaded_) water_.emplace(*loaded_, faults_);
+    if (loaded_) water_.emplace(water_pressure_of(*loaded_, faults_));
   }
   /// Total force on a block, N.
   [[nodiscard]] Vector3 force(std::size_t block) const {
@@ -57,7 +57,7 @@ class WaterOfScene {
     }
     return sum;
   }
-  [[nodiscard]] const WaterLoads& water() const { return *water_; }
+  [[nodiscard]] const WaterPressure& water() const { return *water_; }
   [[nodiscard]] std::string fault() const {
     return faults_.sorted().empty() ? "" : faults_.sorted().front().message;
   }
@@ -65,7 +65,7 @@ class WaterOfScene {
  private:
   Diagnostics faults_;
   std::optional<LoadedScene> loaded_;
-  std::optional<WaterLoads> water_;
+  std::optional<WaterPressure> water_;
 };
 
 // All faces below 2 m are pressed: sides cancel, and the floor's joint lifts by 2 m of water over 2 m^2.
@@ -113,8 +113,8 @@ TEST(WaterLoads, AStageLowersTheLevel) {
   ASSERT_TRUE(loaded);
   const LoadedScene second = stage_of(*loaded, 1);
   ASSERT_EQ(second.scene.water.size(), 1U);
-  EXPECT_NEAR(WaterLoads(second, faults).in_joint(0, 1, {1, 0.5, 0}), 500, 1e-9);
-  EXPECT_NEAR(WaterLoads(stage_of(*loaded, 0), faults).in_joint(0, 1, {1, 0.5, 0}), 2000, 1e-9);
+  EXPECT_NEAR(water_pressure_of(second, faults).in_joint(0, 1, {1, 0.5, 0}), 500, 1e-9);
+  EXPECT_NEAR(water_pressure_of(stage_of(*loaded, 0), faults).in_joint(0, 1, {1, 0.5, 0}), 2000, 1e-9);
 }
 
 TEST(WaterLoads, FaultsNameTheirPlace) {

@@ -4,7 +4,7 @@
 
 #include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/check/scene_checks.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "unit/apps/sample_scene.hpp"
 
 namespace ashlar::test::accuracy_checks_test {
@@ -100,9 +100,8 @@ TEST(AccuracyChecks, SomeAnalysesHaveNone) {
   EXPECT_THAT(faults_of(scene_of("end_time = 1, time_step = 0.1, accuracy = 0.1", "",
                                  "[[stage]]\nname = \"one\"\n[[stage]]\nname = \"two\"\n")),
               ElementsAre(HasSubstr("accuracy of an analysis with stages (2)")));
-  EXPECT_THAT(
-      faults_of(scene_of("end_time = 1, time_step = 0.1, accuracy = 0.1, formulation = \"incremental\"")),
-      ElementsAre(HasSubstr("accuracy of the incremental formulation")));
+  EXPECT_THAT(faults_of(scene_of("end_time = 1, time_step = 0.1, accuracy = 0.1, formulation = \"paper\"")),
+              ElementsAre(HasSubstr("accuracy of incremental blocks (0.1)")));
 }
 
 // Ground beyond a boundary is computed beforehand, with the step.

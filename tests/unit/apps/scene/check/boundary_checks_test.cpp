@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/scene/assemble/scene_loading.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
@@ -79,8 +79,8 @@ TEST(BoundaryChecks, BlocksDeform) {
   EXPECT_THAT(
       faults_of(base, {"block.low.order=0"}),
       ElementsAre(HasSubstr("boundary at a rigid block (\"low\", order 0), order 1 or more is needed")));
-  EXPECT_THAT(faults_of(base, {"analysis.formulation=incremental", "analysis.initial_state=as-placed"}),
-              ::testing::Contains(HasSubstr("formulation = \"total\" is needed")));
+  EXPECT_THAT(faults_of(base, {"analysis.formulation=paper", "analysis.initial_state=as-placed"}),
+              ::testing::Contains(HasSubstr("a boundary of incremental blocks (formulation = \"paper\")")));
 }
 
 TEST(BoundaryChecks, AFreeFieldHasABaseLayersAndNoWave) {

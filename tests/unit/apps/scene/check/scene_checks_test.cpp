@@ -31,8 +31,6 @@ TEST(SceneChecks, BlocksOfOrderZeroHaveNoSupportsAndNeedAnIntegratorThatMovesThe
               ElementsAre(HasSubstr("a block of order 0 has no supports (\"B\")")));
   EXPECT_THAT(all_faults(sample(), {"block.A.order=0", "analysis.integrator=generalized-alpha"}),
               ElementsAre(HasSubstr("generalized-alpha does not move blocks of order 0 (\"A\")")));
-  EXPECT_THAT(all_faults(sample(), {"block.A.order=0", "analysis.formulation=incremental"}),
-              ElementsAre(HasSubstr("a block of order 0 has no incremental formulation (\"A\")")));
 }
 
 class SceneCheckFault : public ::testing::TestWithParam<FaultCase> {};
@@ -51,8 +49,6 @@ INSTANTIATE_TEST_SUITE_P(
         FaultCase{3, "time_step = 0.01\nintegrator = \"generalized-alpha\"\nmass_damping = 301",
                   "s.toml:5:16: error: mass_damping is too large for this time_step with generalized-alpha "
                   "(301), at most 3 / time_step = 300 is allowed"},
-        FaultCase{1, "[analysis]\nformulation = \"incremental\"\ntype = \"static\"",
-                  "s.toml:3:8: error: static analysis of incremental blocks"},
         FaultCase{7, "blocks = [\"A\", \"C\"]",
                   "s.toml:7:10: error: joint names no block (\"C\"), the name of a [[block]] or a glob"},
         FaultCase{7, "blocks = [\"\", \"\"]", "s.toml:7:10: error: joint names no block (\"\")"},
@@ -146,23 +142,6 @@ TEST(SceneChecks, EntriesThatAreNoTablesDoNotShiftOthers) {
 
 TEST(SceneChecks, FixedBlockNeedsNoMaterial) {
   EXPECT_THAT(all_faults(sample_with(15, "fixed = true")), IsEmpty());
-}
-
-TEST(SceneChecks, WhatHasNoIncrementalFormIsRefused) {
-  const std::vector<std::string> incremental = {"analysis.formulation=\"incremental\""};
-  EXPECT_THAT(all_faults(sample(), incremental), IsEmpty());
-  EXPECT_THAT(all_faults(sample_with(5, "surface = \"curved\""), incremental),
-              ElementsAre(StartsWith("s.toml:5:11: error: the surface of an incremental block")));
-  EXPECT_THAT(all_faults(sample_with(5, "surface = \"flat\""), incremental), IsEmpty());
-  EXPECT_THAT(all_faults(sample_with(31, "curved = true"), incremental),
-              ElementsAre(StartsWith("s.toml:31:10: error: the surface of an incremental block")));
-  EXPECT_THAT(
-      all_faults(sample_with(5, "chord_tolerance = 0.01"), incremental),
-      ElementsAre(StartsWith("s.toml:5:19: error: the sub-faces of an incremental block are fixed, see "
-                             "contact.subdivisions (0.01)")));
-  EXPECT_THAT(
-      all_faults(sample_with(12, "poisson_ratio = 0.25\nelasticity = \"st-venant-kirchhoff\""), incremental),
-      ElementsAre(StartsWith("s.toml:13:14: error: an incremental block accumulates linear stress")));
 }
 
 }  // namespace

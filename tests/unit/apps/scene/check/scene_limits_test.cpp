@@ -51,13 +51,6 @@ INSTANTIATE_TEST_SUITE_P(
             "s.toml:23:24: error: displacement_history moves the block beyond the range of double precision "
             "(1e+10 m), at most 7.149e+09 m is allowed"}));
 
-TEST(SceneLimits, IncrementalBlocksDoNotKnowWhereTheyWerePlaced) {
-  EXPECT_THAT(faults(sample_with(5, "allowed_overlap = 1e-4")), IsEmpty());
-  EXPECT_THAT(
-      faults(sample_with(5, "allowed_overlap = 1e-4"), {"analysis.formulation=incremental"}),
-      ElementsAre(StartsWith("s.toml:5:19: error: allowed_overlap with formulation \"incremental\"")));
-}
-
 TEST(SceneLimits, WhatDoublesCanFollowIsGood) {
   EXPECT_THAT(faults(sample()), IsEmpty());
   EXPECT_THAT(faults(sample_with(5, "distance = 9e-16"),

@@ -12,7 +12,7 @@
 
 #include "apps/scene/assemble/scene_reader.hpp"
 #include "apps/scene/assemble/scene_schema.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/toml/key_recorder.hpp"
 
 namespace ashlar::model_position_test {

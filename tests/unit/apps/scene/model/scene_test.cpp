@@ -36,6 +36,14 @@ TEST(Scene, OtherPairsKeepWhatMatchesThem) {
   EXPECT_FALSE(law.tied);
 }
 
+TEST(Scene, JointsOfCutsDoNotChooseMultipliers) {
+  Scene scene = scene_with_joints();
+  scene.analysis.type = SceneAnalysis::Type::statics;
+  EXPECT_TRUE(has_multipliers(scene)) << "a joint of automatic stiffness beside a given one";
+  scene.joint[1].made_by_cut = true;
+  EXPECT_FALSE(has_multipliers(scene));
+}
+
 TEST(Scene, FindsMaterialsByName) {
   Scene scene;
   scene.material.resize(2);

@@ -1,10 +1,10 @@
-#include "apps/scene/read/ground_json.hpp"
+#include "apps/scene/json/ground_json.hpp"
 
 #include <utility>
 #include <variant>
 
+#include "apps/scene/json/analysis_json.hpp"
 #include "apps/scene/model/scene_names.hpp"
-#include "apps/scene/read/analysis_json.hpp"
 
 namespace ashlar {
 

@@ -1,5 +1,5 @@
 // Histories of supports as users write them, and their messages.
-#include "apps/scene/check/base_motion.hpp"
+#include "apps/scene/check/warnings/base_motion.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "apps/scene/check/base_motion.hpp"
+#include "apps/scene/check/warnings/base_motion.hpp"
 
 #include <fmt/format.h>
 

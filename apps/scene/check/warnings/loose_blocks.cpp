@@ -1,4 +1,4 @@
-#include "apps/scene/check/loose_blocks.hpp"
+#include "apps/scene/check/warnings/loose_blocks.hpp"
 
 #include <fmt/format.h>
 

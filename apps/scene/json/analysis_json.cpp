@@ -1,4 +1,4 @@
-#include "apps/scene/read/analysis_json.hpp"
+#include "apps/scene/json/analysis_json.hpp"
 
 #include "apps/scene/model/scene_names.hpp"
 
@@ -49,6 +49,57 @@ Json to_json(const SceneAnalysis::SupportSearch& search) {
   return json;
 }
 
+template <class Value>
+void add_given(Json& json, const char* key, const std::optional<Value>& value) {
+  if (value) json[key] = *value;
+}
+
+Json to_json(const ScenePushover& pushover) {
+  Json json = Json::object();
+  if (pushover.direction) json["direction"] = to_json(*pushover.direction);
+  add_given(json, "directions", pushover.directions);
+  if (!pushover.control.empty()) json["control"] = pushover.control;
+  json["limit"] = or_auto(pushover.limit);
+  if (!pushover.blocks.empty()) json["blocks"] = pushover.blocks;
+  add_given(json, "confidence_factor", pushover.confidence_factor);
+  add_given(json, "behaviour_factor", pushover.behaviour_factor);
+  add_given(json, "height", pushover.height);
+  add_given(json, "building_height", pushover.building_height);
+  add_given(json, "storeys", pushover.storeys);
+  add_given(json, "period", pushover.period);
+  return json;
+}
+
+Json to_json(const SceneSpectrum& spectrum) {
+  Json json = Json::object();
+  switch (spectrum.source) {
+    case SceneSpectrum::Source::none:
+      return json;
+    case SceneSpectrum::Source::points:
+      if (!spectrum.file.empty())
+        return {{"file", spectrum.file.string()}, {"scale", spectrum.scale}, {"sha256", spectrum.sha256}};
+      json["points"] = Json::array();
+      for (const auto& [period, acceleration] : spectrum.points)
+        json["points"].push_back({period, acceleration});
+      return json;
+    case SceneSpectrum::Source::ec8:
+    case SceneSpectrum::Source::ntc2018:
+      break;
+  }
+  json = {{"code", name_of(spectrum_code_names, spectrum.source)},
+          {"ag", spectrum.ground_acceleration},
+          {"soil", name_of(soil_names, spectrum.soil)}};
+  if (spectrum.source == SceneSpectrum::Source::ec8) {
+    json["type"] = spectrum.type;
+  } else {
+    json["f0"] = spectrum.amplification;
+    json["tc_star"] = spectrum.corner_period;
+    json["topography"] = spectrum.topography;
+  }
+  add_given(json, "damping", spectrum.damping);
+  return json;
+}
+
 }  // namespace
 
 Json to_json(const SceneAnalysis& analysis) {
@@ -57,7 +108,7 @@ Json to_json(const SceneAnalysis& analysis) {
                {"time_step", analysis.automatic_step ? Json("auto") : Json(analysis.time_step)},
                {"integrator", name_of(integrator_names, analysis.integrator)},
                {"spectral_radius", analysis.spectral_radius},
-               {"formulation", name_of(formulation_names, analysis.formulation)},
+               {"formulation", formulation_name(analysis)},
                {"initial_state", name_of(initial_state_names, analysis.initial_state)}};
   if (analysis.accuracy) json["accuracy"] = *analysis.accuracy;
   if (analysis.allowed_displacement) json["allowed_displacement"] = *analysis.allowed_displacement;
@@ -69,6 +120,11 @@ Json to_json(const SceneAnalysis& analysis) {
   json["safety"] = to_json(analysis.safety, "joints");
   json["capacity"] = to_json(analysis.capacity, "blocks");
   json["movement"] = to_json(analysis.movement);
+  if (analysis.type == SceneAnalysis::Type::pushover) {
+    json["pushover"] = to_json(analysis.pushover);
+    if (analysis.spectrum.source != SceneSpectrum::Source::none)
+      json["spectrum"] = to_json(analysis.spectrum);
+  }
   json["sleeping"] = analysis.sleeping;
   json["memory_limit"] = or_auto(analysis.memory_limit);
   return json;

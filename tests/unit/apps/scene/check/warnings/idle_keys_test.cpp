@@ -1,4 +1,4 @@
-#include "apps/scene/check/idle_keys.hpp"
+#include "apps/scene/check/warnings/idle_keys.hpp"
 
 #include <gmock/gmock.h>
 

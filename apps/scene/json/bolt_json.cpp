@@ -1,7 +1,7 @@
-#include "apps/scene/read/bolt_json.hpp"
+#include "apps/scene/json/bolt_json.hpp"
 
+#include "apps/scene/json/analysis_json.hpp"
 #include "apps/scene/model/scene_names.hpp"
-#include "apps/scene/read/analysis_json.hpp"
 
 namespace ashlar {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/scene/check/soft_blocks.hpp"
+#include "apps/scene/check/warnings/soft_blocks.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 
+#include "apps/scene/json/analysis_json.hpp"
+#include "apps/scene/json/bolt_json.hpp"
+#include "apps/scene/json/ground_json.hpp"
 #include "apps/scene/model/model_position.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/scene_names.hpp"
-#include "apps/scene/read/analysis_json.hpp"
 #include "apps/scene/read/assignments.hpp"
-#include "apps/scene/read/bolt_json.hpp"
-#include "apps/scene/read/ground_json.hpp"
 
 namespace ashlar {
 namespace {
@@ -215,6 +215,13 @@ Json to_json(const SceneBlock& block) {
   return json;
 }
 
+Json to_json(const SceneBond& bond) {
+  Json json = {{"tensile_strength", bond.tensile_strength}, {"cohesion", bond.cohesion}};
+  if (bond.friction_angle) json["friction_angle"] = *bond.friction_angle;
+  if (bond.fracture_energy) json["fracture_energy"] = to_json(*bond.fracture_energy);
+  return json;
+}
+
 void add_planes(Json& json, const SceneCut& cut) {
   json["dip"] = cut.dip;
   json["dip_direction"] = cut.dip_direction;
@@ -244,6 +251,7 @@ Json to_json(const SceneCut& cut) {
     json["seed"] = cut.seed;
   json["min_volume"] = cut.min_volume;
   json["glued"] = cut.glued;
+  if (cut.bonded) json["bonded"] = to_json(*cut.bonded);
   json["most_blocks"] = cut.most_blocks;
   return json;
 }
@@ -369,7 +377,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
                {"analysis", to_json(scene.analysis)},
                {"contact", to_json(scene.contact, has_multipliers(scene))}};
   std::vector<SceneJoint> joints = scene.joint;
-  std::erase_if(joints, [](const SceneJoint& joint) { return joint.of_glued_cut; });
+  std::erase_if(joints, [](const SceneJoint& joint) { return joint.made_by_cut; });
   if (!joints.empty()) json["joint"] = list_to_json(joints);
   json["material"] = list_to_json(scene.material);
   json["block"] = blocks_to_json(scene.rock ? scene.uncut : scene.block);

@@ -1,4 +1,4 @@
-#include "apps/scene/check/implausible_keys.hpp"
+#include "apps/scene/check/warnings/implausible_keys.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/scene/check/idle_keys.hpp"
+#include "apps/scene/check/warnings/idle_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -43,6 +43,10 @@ void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
     keys.warn("analysis.capacity", "only type = \"capacity\" looks for one");
   if (analysis.type != SceneAnalysis::Type::thrust)
     keys.warn("analysis.movement", "only type = \"thrust\" looks for one");
+  if (analysis.type != SceneAnalysis::Type::pushover) {
+    keys.warn("analysis.pushover", "only type = \"pushover\" has one");
+    keys.warn("analysis.spectrum", "only type = \"pushover\" is compared with one");
+  }
   if (analysis.type != SceneAnalysis::Type::safety && analysis.type != SceneAnalysis::Type::capacity)
     keys.warn("analysis.method", "only a search for a factor has one");
   if (!analysis.gravity_history.empty()) keys.warn("analysis.gravity", "gravity_history is in its place");

@@ -1,4 +1,4 @@
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "apps/scene/check/turned_supports.hpp"
+#include "apps/scene/check/warnings/turned_supports.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
