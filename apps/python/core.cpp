@@ -22,7 +22,7 @@
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
 #include "apps/scene/assemble/scene_schema.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 
 namespace py = pybind11;
 

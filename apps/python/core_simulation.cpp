@@ -323,6 +323,10 @@ void bind_simulation(py::module_& module) {
            [](CoreSimulation& s) {
              return s.without_interpreter([](const Run& run) { return run.summary(); });
            })
+      .def("errors",
+           [](CoreSimulation& s) {
+             return s.without_interpreter([](const Run& run) { return run.errors(); });
+           })
       .def("history", &CoreSimulation::history)
       .def("history_units", &CoreSimulation::history_units)
       .def("contacts", &CoreSimulation::contacts)

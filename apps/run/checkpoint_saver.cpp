@@ -1,5 +1,6 @@
 #include "apps/run/checkpoint_saver.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <system_error>
 #include <utility>
@@ -9,12 +10,12 @@
 #include "apps/results/folder/run_clock.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/run.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 
 namespace ashlar {
 namespace {
 
-/// On several ranks those of the last step's report: records of other ranks have not been gathered.
+/// Of a shared run those of the last step's report: records of other processes have not been gathered.
 std::size_t contact_points(const Simulation& simulation, bool shared) {
   const StepReport& report = simulation.report();
   if (shared) return static_cast<std::size_t>(report.open + report.locked + report.sliding);
@@ -26,16 +27,8 @@ std::size_t contact_points(const Simulation& simulation, bool shared) {
 }  // namespace
 
 CheckpointSaver::CheckpointSaver(std::shared_ptr<FolderRecorder> recorder, std::optional<double> interval,
-                                 bool saved, Ranks* ranks)
-    : recorder_(std::move(recorder)),
-      interval_(interval),
-      ranks_(ranks),
-      saved_(saved),
-      schedule_(interval, RunClock::now()) {}
-
-bool CheckpointSaver::agreed(bool first) const {
-  return ranks_ == nullptr ? first : any_rank(*ranks_, first && ranks_->own() == 0);
-}
+                                 bool saved, const RunGroup& group)
+    : recorder_(std::move(recorder)), group_(group), saved_(saved), schedule_(interval, RunClock::now()) {}
 
 void CheckpointSaver::run_begins(const Run& run) {
   if (recorder_) scene_bytes_ = json_text(to_json(run.whole()), 2).size();
@@ -43,17 +36,17 @@ void CheckpointSaver::run_begins(const Run& run) {
 
 void CheckpointSaver::stage_begins(const Run& run) {
   save(run);
-  schedule_ = CheckpointSchedule(interval_, RunClock::now());
+  schedule_.begin(RunClock::now());
 }
 
 void CheckpointSaver::step_taken(const Run& run) {
-  if (agreed(schedule_.due(RunClock::now()))) {
+  const std::size_t points = contact_points(run.simulation(), group_.shared());
+  if (group_.as_first(schedule_.due(RunClock::now(), expected_growth(points)))) {
     save(run);
-    schedule_.saved(RunClock::now());
-  } else if (agreed(contact_points(run.simulation(), ranks_ != nullptr) > 2 * contact_points_)) {
+  } else if (recorder_ && points > 2 * reserved_points_) {
     // The reserved space may be too small for this state.
     try {
-      save(run);
+      reserve_for(points);
     } catch (const std::system_error&) {
       // The reserve was for later; the failure to write the last files is reported at the end.
     }
@@ -65,20 +58,40 @@ void CheckpointSaver::stage_stops(const Run& run) {
 }
 
 void CheckpointSaver::save_after_failure(const Run& run) {
-  // The other ranks have no failure: the state saved last stays.
-  if (ranks_ != nullptr) return;
+  // The other processes have no failure: the state saved last stays.
+  if (group_.shared()) return;
   recorder_->reserve().release();
   write(run);
 }
 
 void CheckpointSaver::save(const Run& run) {
+  const double began = RunClock::now();
   write(run);
-  if (!recorder_) return;
-  contact_points_ = contact_points(run.simulation(), ranks_ != nullptr);
-  // A state with twice the contact points, which requires another checkpoint, and the summary fit in beside the
-  // present state.
+  if (recorder_) {
+    contact_points_ = contact_points(run.simulation(), group_.shared());
+    reserve_for(contact_points_);
+  }
+  schedule_.saved(began, RunClock::now());
+}
+
+std::uintmax_t CheckpointSaver::expected_bytes(std::size_t contact_points) const {
+  // Measured with area springs: 1.9 kB.
+  constexpr std::uintmax_t bytes_of_point = 2048;
+  return state_bytes_ + bytes_of_point * (contact_points - std::min(contact_points, contact_points_));
+}
+
+double CheckpointSaver::expected_growth(std::size_t contact_points) const {
+  // Of a slow disk; the time of the checkpoint itself counts once it is written.
+  constexpr double bytes_per_second = 2e8;
+  return static_cast<double>(expected_bytes(contact_points) - state_bytes_) / bytes_per_second;
+}
+
+void CheckpointSaver::reserve_for(std::size_t contact_points) {
+  reserved_points_ = contact_points;
+  // A state with twice the contact points, from which on more is reserved, and the summary fit in beside the present
+  // state.
   constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;
-  recorder_->reserve().hold(states * state_bytes_ + scenes * scene_bytes_ + rest);
+  recorder_->reserve().hold(states * expected_bytes(contact_points) + scenes * scene_bytes_ + rest);
 }
 
 void CheckpointSaver::write(const Run& run) {

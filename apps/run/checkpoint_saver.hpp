@@ -9,19 +9,19 @@
 
 #include "apps/run/checkpoint_schedule.hpp"
 #include "apps/run/folder_recorder.hpp"
+#include "apps/run/run_group.hpp"
 #include "apps/run/run_observer.hpp"
-#include "solver/ranks/ranks.hpp"
 
 namespace ashlar {
 
 /// All members throw std::runtime_error with path and reason if the state cannot be written.
 class CheckpointSaver : public RunObserver {
  public:
-  /// @param recorder attached before this; null on ranks that do not write. @param interval s between checkpoints, >= 0; empty: growing, see
-  /// CheckpointSchedule. @param saved the folder has a checkpoint of the run
-  /// @param ranks that share the run, each with a saver whose members are collective; null: one
+  /// @param recorder attached before this; null on processes that do not write. @param interval s between checkpoints, >= 0;
+  /// empty: growing, see CheckpointSchedule. @param saved the folder has a checkpoint of the run
+  /// @param group each process has a saver, whose members are collective
   CheckpointSaver(std::shared_ptr<FolderRecorder> recorder, std::optional<double> interval, bool saved,
-                  Ranks* ranks = nullptr);
+                  const RunGroup& group = {});
 
   void run_begins(const Run& run) override;
   void stage_begins(const Run& run) override;
@@ -33,19 +33,23 @@ class CheckpointSaver : public RunObserver {
   [[nodiscard]] bool saved() const { return saved_; }
 
  private:
-  /// The first rank's answer on all ranks.
-  [[nodiscard]] bool agreed(bool first) const;
+  /// Writes a checkpoint and reserves space for the next one.
   void save(const Run& run);
   void write(const Run& run);
+  /// Of a state with so many contact points, bytes.
+  [[nodiscard]] std::uintmax_t expected_bytes(std::size_t contact_points) const;
+  /// By which writing such a state is expected to take longer than writing the last one, s.
+  [[nodiscard]] double expected_growth(std::size_t contact_points) const;
+  void reserve_for(std::size_t contact_points);
 
   std::shared_ptr<FolderRecorder> recorder_;
-  std::optional<double> interval_;
-  Ranks* ranks_;
+  RunGroup group_;
   bool saved_;
   CheckpointSchedule schedule_;
-  std::uintmax_t scene_bytes_ = 0;  ///< in the summary
-  std::uintmax_t state_bytes_ = 0;  ///< of the last checkpoint
-  std::size_t contact_points_ = 0;  ///< of the last checkpoint
+  std::uintmax_t scene_bytes_ = 0;   ///< in the summary
+  std::uintmax_t state_bytes_ = 0;   ///< of the last checkpoint
+  std::size_t contact_points_ = 0;   ///< of the last checkpoint
+  std::size_t reserved_points_ = 0;  ///< contact points of the state that space was reserved for
 };
 
 }  // namespace ashlar

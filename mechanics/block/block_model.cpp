@@ -82,6 +82,11 @@ void BlockModel::set_reaction(Eigen::MatrixX3d reaction) {
 }
 
 BlockModel BlockModel::with_order(int order) const {
+  BlockPartsLibrary library;
+  return with_order(order, library);
+}
+
+BlockModel BlockModel::with_order(int order, BlockPartsLibrary& library) const {
   if (fixed() || form_ || rigid() || order < 1)
     throw std::invalid_argument(
         "only a moving block of the total formulation changes order, and none to rigid");
@@ -90,7 +95,7 @@ BlockModel BlockModel::with_order(int order) const {
         "the reaction of quiet faces is of one order: change it before motion begins");
   BlockDefinition definition = definition_;
   definition.order = order;
-  return BlockModel(std::move(definition));
+  return {std::move(definition), library};
 }
 
 BlockModel BlockModel::with_shape(CarriedShape shape) const {

@@ -53,6 +53,8 @@ class BlockModel {
   /// The same block of the total formulation with another order, >= 1. @throws std::invalid_argument for a fixed,
   /// incremental or rigid one, and for one whose quiet faces are released
   [[nodiscard]] BlockModel with_order(int order) const;
+  /// The same, with data shared with other blocks made with the library.
+  [[nodiscard]] BlockModel with_order(int order, BlockPartsLibrary& library) const;
 
   /// Null for blocks of the total formulation.
   [[nodiscard]] const IncrementalForm* incremental() const { return form_.get(); }

@@ -10,6 +10,7 @@
 #include "solver/accuracy/goal_distance.hpp"
 #include "solver/parallel_for.hpp"
 #include "solver/run/order_error.hpp"
+#include "solver/run/order_error_work.hpp"
 #include "solver/step/accept/snapshot.hpp"
 #include "solver/step/island/island_tangent.hpp"
 #include "solver/step/step_problem.hpp"
@@ -24,8 +25,13 @@ constexpr double stiffer_than_springs = 1e3;
 std::vector<BlockModel> with_next_orders(const Simulation& simulation) {
   const std::vector<BlockModel>& blocks = simulation.blocks();
   std::vector<std::optional<BlockModel>> higher(blocks.size());
-  parallel_for(simulation.system().settings().threads, blocks.size(), [&](std::size_t k) {
-    if (simulation.system().moving()[k]) higher[k] = with_further_orders(blocks[k]);
+  std::vector<int> moving;
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    if (simulation.system().moving()[k]) moving.push_back(static_cast<int>(k));
+  const std::vector<std::vector<int>> groups = equal_blocks(blocks, moving);
+  parallel_for(simulation.system().settings().threads, groups.size(), [&](std::size_t n) {
+    BlockPartsLibrary library;
+    for (const int k : groups[n]) higher[at(k)] = with_further_orders(blocks[at(k)], library);
   });
   std::vector<BlockModel> result;
   bool any = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -11,6 +12,7 @@
 #include "mechanics/block/order_change.hpp"
 #include "mechanics/contact/tie.hpp"
 #include "solver/parallel_for.hpp"
+#include "solver/run/order_error_work.hpp"
 
 namespace ashlar {
 namespace {
@@ -22,15 +24,23 @@ int largest_order(const BlockModel& block) {
 /// A solution that is even or odd has nothing in the next order.
 constexpr int further_orders = 2;
 
+/// Of sums of forces.
+constexpr double relative_rounding = 1e-11;
+
+/// The order that is tried first.
+int wanted_order(const BlockModel& block) {
+  return std::min(block.order() + further_orders, largest_order(block));
+}
+
 double relative_of(double lacks, double energy) {
   return lacks > 0.0 ? std::sqrt(lacks / (energy + lacks)) : 0.0;
 }
 
 /// Empty if the shape or the material of the block excludes the order, or if it is that of the block.
-std::optional<BlockModel> allowed_order(const BlockModel& block, int order) {
+std::optional<BlockModel> allowed_order(const BlockModel& block, int order, BlockPartsLibrary& library) {
   if (order <= block.order()) return std::nullopt;
   try {
-    return block.with_order(order);
+    return block.with_order(order, library);
   } catch (const OrderTooHigh&) {
     return std::nullopt;
   } catch (const std::invalid_argument&) {
@@ -42,10 +52,12 @@ std::optional<BlockModel> allowed_order(const BlockModel& block, int order) {
 struct PointForces {
   std::vector<Vector3> points;  ///< reference coordinates, m
   std::vector<Vector3> forces;  ///< N
+  double sum_of_sizes = 0.0;    ///< N
 
   void add(const Vector3& point, const Vector3& force) {
     points.push_back(point);
     forces.push_back(force);
+    sum_of_sizes += force.norm();
   }
   /// @return (p, 3), N m^-3/2
   [[nodiscard]] Eigen::MatrixX3d on(const PolynomialBasis& basis) const {
@@ -100,13 +112,37 @@ TieForce tie_force(const Simulation& simulation, int index, const BlockModel& hi
   return sum;
 }
 
-/// Empty: the shape of the block allows no higher order.
-std::optional<OrderError> error_of(const Simulation& simulation, int index, const PointForces& contact) {
+/// A block that can be estimated, with what is known of it without any higher order.
+struct Candidate {
+  int block;
+  double energy;  ///< of strain, J
+  /// Size of its contact forces, loads and elastic forces, N: ties and inertia are in the last ones
+  double force;
+  bool undeformed;  ///< and without forces but gravity: it has no error
+};
+
+Candidate candidate_of(const Simulation& simulation, int index, const PointForces& contact) {
+  const BlockSystem& system = simulation.system();
+  const BlockModel& block = simulation.blocks()[at(index)];
+  const ElasticResponse elastic = block.elastic(simulation.states()[at(index)].position);
+  const double load = block.load_force(simulation.time()).norm(), stress = elastic.force.norm();
+  const auto within_rounding = [&] {
+    const Vector3 gravity = system.settings().gravity_at(simulation.time());
+    return stress <= relative_rounding * block.external_force(gravity, simulation.time()).norm() +
+                         block.force_rounding();
+  };
+  const bool free =
+      contact.sum_of_sizes == 0.0 && load == 0.0 && !block.supported() && !system.is_tied(index);
+  const double force = contact.sum_of_sizes + std::sqrt(block.basis().volume()) * (load + stress);
+  return {index, elastic.energy, force, free && within_rounding()};
+}
+
+/// @param high the block with the functions of the next orders
+OrderError error_of(const Simulation& simulation, const Candidate& candidate, const BlockModel& high,
+                    const PointForces& contact) {
+  const int index = candidate.block;
   const BlockModel& block = simulation.blocks()[at(index)];
   const BlockState& state = simulation.states()[at(index)];
-  const std::optional<BlockModel> higher = with_further_orders(block);
-  if (!higher) return std::nullopt;
-  const BlockModel& high = *higher;
   const Eigen::MatrixX3d position = change_order(block, state, high).state.position;
   const ElasticResponse elastic = high.elastic(position);
   const Vector3 gravity = simulation.system().settings().gravity_at(simulation.time());
@@ -114,10 +150,10 @@ std::optional<OrderError> error_of(const Simulation& simulation, int index, cons
   const Eigen::MatrixX3d outer =
       high.external_force(gravity, simulation.time()) + contact.on(high.basis()) + ties.force;
   const Eigen::VectorXd residual = part_on_new_functions(block, high, outer - elastic.force);
-  OrderError error{index, block.elastic(state.position).energy, 0.0};
+  OrderError error{index, candidate.energy, 0.0};
   // Sums of forces are rounded; a block without them has no error.
-  constexpr double rounding = 1e-11;
-  if (!(residual.norm() > rounding * outer.norm() + high.force_rounding() + ties.rounding)) return error;
+  if (!(residual.norm() > relative_rounding * outer.norm() + high.force_rounding() + ties.rounding))
+    return error;
   Eigen::MatrixXd stiffness = high.tangent(position, elastic, true);
   // Rigid motions, which the residual does not contain, have no stiffness.
   constexpr double of_largest = 1e-12;
@@ -127,6 +163,42 @@ std::optional<OrderError> error_of(const Simulation& simulation, int index, cons
   return error;
 }
 
+/// Blocks that the estimate is for.
+std::vector<int> blocks_to_estimate(const Simulation& simulation) {
+  const BlockSystem& system = simulation.system();
+  std::set<int> bolted;
+  for (const Bolt& bolt : system.bolts())
+    for (const BoltSpan& span : bolt.chain.shape().pieces()) bolted.insert(span.block);
+  std::vector<int> result;
+  for (int k = 0; k < static_cast<int>(simulation.blocks().size()); ++k) {
+    const BlockModel& block = simulation.blocks()[at(k)];
+    if (!system.moving()[at(k)] || block.rigid() || block.incremental() != nullptr || block.quiet() ||
+        block.driven() || block.initial_stress() || block.order() >= largest_order(block) ||
+        bolted.contains(k))
+      continue;
+    result.push_back(k);
+  }
+  return result;
+}
+
+/// Indices of the candidates with the largest forces whose estimates fit into a budget, in increasing order.
+std::vector<int> chosen_within(const Simulation& simulation, const std::vector<Candidate>& candidates,
+                               double most_work) {
+  std::vector<int> ranked(candidates.size());
+  std::iota(ranked.begin(), ranked.end(), 0);
+  std::erase_if(ranked, [&](int k) { return candidates[at(k)].undeformed; });
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [&](int a, int b) { return candidates[at(a)].force > candidates[at(b)].force; });
+  EstimateBudget budget(most_work);
+  std::vector<int> chosen;
+  for (const int k : ranked) {
+    const BlockModel& block = simulation.blocks()[at(candidates[at(k)].block)];
+    if (budget.take(block, wanted_order(block))) chosen.push_back(k);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
 }  // namespace
 
 double OrderError::relative() const {
@@ -134,14 +206,19 @@ double OrderError::relative() const {
 }
 
 std::optional<BlockModel> with_further_orders(const BlockModel& block) {
+  BlockPartsLibrary library;
+  return with_further_orders(block, library);
+}
+
+std::optional<BlockModel> with_further_orders(const BlockModel& block, BlockPartsLibrary& library) {
   if (block.fixed() || block.rigid() || block.incremental() != nullptr || block.dashpots() != nullptr)
     return std::nullopt;
-  const int largest = largest_order(block);
-  const int wanted = std::min(block.order() + further_orders, largest);
-  std::optional<BlockModel> next = allowed_order(block, wanted);
-  for (int order = wanted - 1; !next && order > block.order(); --order) next = allowed_order(block, order);
+  const int largest = largest_order(block), wanted = wanted_order(block);
+  std::optional<BlockModel> next = allowed_order(block, wanted, library);
+  for (int order = wanted - 1; !next && order > block.order(); --order)
+    next = allowed_order(block, order, library);
   for (int order = wanted + 1; next && next->unknowns() == 0 && order <= largest; ++order)
-    next = allowed_order(block, order);
+    next = allowed_order(block, order, library);
   return next;
 }
 
@@ -153,27 +230,48 @@ Eigen::VectorXd part_on_new_functions(const BlockModel& low, const BlockModel& h
   return high.space().restrict(rest);
 }
 
-std::vector<OrderError> order_errors(const Simulation& simulation) {
-  std::set<int> bolted;
-  for (const Bolt& bolt : simulation.system().bolts())
-    for (const BoltSpan& span : bolt.chain.shape().pieces()) bolted.insert(span.block);
-  std::vector<int> asked;
-  for (int k = 0; k < static_cast<int>(simulation.blocks().size()); ++k) {
-    const BlockModel& block = simulation.blocks()[at(k)];
-    if (!simulation.system().moving()[at(k)] || block.rigid() || block.incremental() != nullptr ||
-        block.quiet() || block.driven() || block.initial_stress() || block.order() >= largest_order(block) ||
-        bolted.contains(k))
-      continue;
-    asked.push_back(k);
-  }
+OrderErrors order_errors_within(const Simulation& simulation, double most_work) {
+  const int threads = simulation.system().settings().threads;
   const std::vector<PointForces> forces = contact_forces(simulation);
+  const std::vector<int> asked = blocks_to_estimate(simulation);
+  std::vector<Candidate> candidates(asked.size());
+  parallel_for(threads, asked.size(), [&](std::size_t k) {
+    candidates[k] = candidate_of(simulation, asked[k], forces[at(asked[k])]);
+  });
   std::vector<std::optional<OrderError>> found(asked.size());
-  parallel_for(simulation.system().settings().threads, asked.size(),
-               [&](std::size_t k) { found[k] = error_of(simulation, asked[k], forces[at(asked[k])]); });
-  std::vector<OrderError> errors;
-  for (const std::optional<OrderError>& error : found)
-    if (error) errors.push_back(*error);
-  return errors;
+  OrderErrors result;
+  result.blocks = static_cast<int>(asked.size());
+  std::vector<int> chosen;                                           // blocks
+  std::vector<std::size_t> place_of(simulation.blocks().size(), 0);  // by block, in `found`
+  for (const int k : chosen_within(simulation, candidates, most_work)) {
+    chosen.push_back(asked[at(k)]);
+    place_of[at(asked[at(k)])] = at(k);
+  }
+  const std::vector<std::vector<int>> groups = equal_blocks(simulation.blocks(), chosen);
+  parallel_for(threads, groups.size(), [&](std::size_t n) {
+    BlockPartsLibrary library;
+    int order = 0;  // of the first block's estimate, and so of all
+    for (const int block : groups[n]) {
+      const BlockModel& model = simulation.blocks()[at(block)];
+      const std::optional<BlockModel> high =
+          order > 0 ? allowed_order(model, order, library) : with_further_orders(model, library);
+      if (!high) continue;
+      order = high->order();
+      const std::size_t k = place_of[at(block)];
+      found[k] = error_of(simulation, candidates[k], *high, forces[at(block)]);
+    }
+  });
+  // The shape of others allows no higher order.
+  for (const int block : chosen) result.blocks -= found[place_of[at(block)]] ? 0 : 1;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (candidates[k].undeformed) found[k] = OrderError{candidates[k].block, candidates[k].energy, 0.0};
+    if (found[k]) result.errors.push_back(*found[k]);
+  }
+  return result;
+}
+
+std::vector<OrderError> order_errors(const Simulation& simulation) {
+  return order_errors_within(simulation, std::numeric_limits<double>::infinity()).errors;
 }
 
 double relative_error(const std::vector<OrderError>& errors) {

@@ -14,6 +14,10 @@
 // the functions of all orders. Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order or
 // whose shape allows no higher one, and those with bolts or quiet faces, whose forces are not recorded, with supports that
 // move, or with initial stress, whose energy is not that of their deformation.
+//
+// A block that is neither supported, tied nor loaded, whose contacts have no force and whose elastic force is within
+// rounding error has no error, and needs no model of higher order: gravity acts on the mean function alone, and a rigid
+// motion has no elastic force, in any order.
 #pragma once
 
 #include <optional>
@@ -32,13 +36,26 @@ struct OrderError {
   [[nodiscard]] double relative() const;
 };
 
-/// In the order of the blocks. After a step or an iteration, at its contact forces.
+/// Estimates of some blocks.
+struct OrderErrors {
+  std::vector<OrderError> errors;  ///< in the order of the blocks
+  int blocks = 0;                  ///< that can be estimated, >= errors.size()
+};
+
+/// Of all blocks, in their order. After a step or an iteration, at its contact forces.
 [[nodiscard]] std::vector<OrderError> order_errors(const Simulation& simulation);
+
+/// The same within a limit of work: of blocks without any error, and then of those with the largest forces that fit in.
+/// Each is as that of order_errors(), to the bit. @param most_work >= 0, see order_error_work.hpp
+[[nodiscard]] OrderErrors order_errors_within(const Simulation& simulation, double most_work);
 
 /// The block with the functions of the next two orders, or of the next one where its shape does not allow two; where its
 /// supports leave these no motion, of the first order that has any. Empty: none is allowed, or the block is fixed, rigid,
 /// incremental or has dashpots.
 [[nodiscard]] std::optional<BlockModel> with_further_orders(const BlockModel& block);
+/// The same, with data shared with other blocks made with the library.
+[[nodiscard]] std::optional<BlockModel> with_further_orders(const BlockModel& block,
+                                                            BlockPartsLibrary& library);
 
 /// The part of a force on functions of the higher order that those of the lower one do not have. @param low,high one
 /// block in two orders. @param force (p of high, 3). @return (unknowns of high)

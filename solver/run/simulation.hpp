@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/run/initial_stress.hpp"
+#include "solver/ground/initial_stress.hpp"
 #include "solver/shared/ghosts.hpp"
 #include "solver/shared/pairs_of_run.hpp"
 #include "solver/shared/run_totals.hpp"

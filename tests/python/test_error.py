@@ -16,6 +16,8 @@ def test_the_error_of_orders_is_estimated(order, estimate):
     sim.run()
     assert sim.error["estimate"] == pytest.approx(estimate, abs=1e-3)
     assert [block["block"] for block in sim.error["blocks"]] == (["bar"] if order == 1 else [])
+    assert (sim.error["blocks_estimated"], sim.error["blocks_in_all"]) == (1, 1)
+    assert sim.error == sim.summary["error"]
 
 
 def test_the_error_of_measures_is_estimated():

@@ -69,16 +69,24 @@ std::string bound_of_step(const Simulation& simulation, const BoundingIsland& bo
 
 }  // namespace
 
-nlohmann::ordered_json error_summary(const Simulation& simulation, const std::vector<OrderError>& errors) {
+nlohmann::ordered_json error_summary(const Simulation& simulation, const OrderErrors& errors) {
   constexpr std::size_t most = 10;
   Json blocks = Json::array();
-  for (const OrderError& error : worst_first(errors)) {
+  for (const OrderError& error : worst_first(errors.errors)) {
     if (error.lacks == 0.0 || blocks.size() == most) break;
     const BlockModel& block = simulation.blocks()[at(error.block)];
     blocks.push_back({{"block", block.name()}, {"order", block.order()}, {"estimate", error.relative()}});
   }
-  const double estimate = relative_error(errors);
-  return {{"estimate", estimate}, {"by", {{"order", estimate}}}, {"blocks", std::move(blocks)}};
+  Json json = Json::object();
+  if (!errors.errors.empty()) {
+    const double estimate = relative_error(errors.errors);
+    json["estimate"] = estimate;
+    json["by"] = {{"order", estimate}};
+  }
+  json["blocks"] = std::move(blocks);
+  json["blocks_estimated"] = errors.errors.size();
+  json["blocks_in_all"] = errors.blocks;
+  return json;
 }
 
 void add_measure_errors(const Scene& scene, const std::vector<GoalError>& errors,

@@ -16,10 +16,10 @@ namespace ashlar {
 /// Largest estimate without a warning, for blocks whose order was raised.
 inline constexpr double ordinary_order_error = 0.1;
 
-/// estimate: of all blocks, in the norm of the strain energy; by: { order }; blocks: at most 10 with the largest lacks
-/// of energy, { block, order, estimate }, without those whose estimate is 0.
-[[nodiscard]] nlohmann::ordered_json error_summary(const Simulation& simulation,
-                                                   const std::vector<OrderError>& errors);
+/// estimate: of the estimated blocks together, in the norm of the strain energy; by: { order }; blocks: at most 10 with the
+/// largest lacks of energy, { block, order, estimate }, without those whose estimate is 0; blocks_estimated: number of
+/// blocks; blocks_in_all: with those that were left out. Neither estimate nor by if none was estimated.
+[[nodiscard]] nlohmann::ordered_json error_summary(const Simulation& simulation, const OrderErrors& errors);
 
 /// Adds `measures`: the relative error of each by the orders of blocks. @param errors by measure
 void add_measure_errors(const Scene& scene, const std::vector<GoalError>& errors,

@@ -22,10 +22,10 @@ struct BlockFall {
 struct FallRecord {
   std::vector<BlockFall> falls;
 
-  /// Notes the state after a step in time, of the blocks of this rank. Nothing falls without gravity.
+  /// Notes the state after a step in time, of the blocks of this process. Nothing falls without gravity.
   void note(const Simulation& simulation);
 };
-/// The first falls of all ranks, by time.
+/// The first falls of all processes, by time.
 [[nodiscard]] FallRecord merged(const std::vector<FallRecord>& of_ranks);
 
 struct MotionVerdict {
@@ -46,9 +46,9 @@ struct MotionVerdict {
   [[nodiscard]] bool at_rest() const { return moving == 0; }
 };
 
-/// On the blocks of this rank.
+/// On the blocks of this process.
 [[nodiscard]] MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record);
-/// On those of all ranks.
+/// On those of all processes.
 [[nodiscard]] MotionVerdict merged(const std::vector<MotionVerdict>& of_ranks);
 
 /// "at rest; 2 of 40 blocks have fallen: roof.1 at 0.42 s by 3.1 m, roof.2 at 0.6 s by 2.9 m", "3 of 8 blocks move, block

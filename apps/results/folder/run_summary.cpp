@@ -7,8 +7,8 @@
 #include "apps/results/folder/rank_summary.hpp"
 #include "apps/results/folder/support_summary.hpp"
 #include "apps/results/system/this_process.hpp"
-#include "apps/scene/check/base_motion.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/check/warnings/base_motion.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {

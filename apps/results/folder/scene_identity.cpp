@@ -7,7 +7,7 @@
 
 #include "apps/results/folder/program_version.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/records/file_hash.hpp"
 
 namespace ashlar {

@@ -24,9 +24,9 @@ inline constexpr double joint_limit_share = 0.99;
 /// States of the points of a pair.
 [[nodiscard]] std::vector<ContactState> shown_states(const Simulation& simulation, const PairRecord& record);
 
-/// Of all contact points, as shown; of a run that ranks share those of the results gathered last, if they are known.
+/// Of all contact points, as shown; of a run that processes share those of the results gathered last, if they are known.
 [[nodiscard]] ShownContacts contact_counts(const Simulation& simulation);
-/// Of the pairs that this rank owns.
+/// Of the pairs that this process owns.
 [[nodiscard]] ShownContacts own_contact_counts(const Simulation& simulation);
 
 }  // namespace ashlar

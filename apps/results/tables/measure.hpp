@@ -36,7 +36,7 @@ struct Measure {
 /// Measures of a scene, in its order. @param blocks of the scene
 [[nodiscard]] std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks);
 
-/// Results of other ranks that measures are evaluated from: states of their blocks, and contacts of measured pairs.
+/// Results of other processes that measures are evaluated from: states of their blocks, and contacts of measured pairs.
 [[nodiscard]] ResultNeeds needs_of(const std::vector<Measure>& measures);
 
 /// Motion of the measured point, its place in the user's coordinates; nan if its block is absent. @param measure of a point or block

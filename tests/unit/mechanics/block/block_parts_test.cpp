@@ -90,6 +90,20 @@ TEST(BlockParts, RoundedTranslationsShareTheirShape) {
   EXPECT_EQ(with.size(), 1U);
 }
 
+TEST(BlockParts, HigherOrdersThatAreSharedHaveTheBitsOfSingleOnes) {
+  const Polyhedron solid = test_support::l_shaped_prism();
+  const Vector3 way(3, -5, 0.25);  // exact in binary
+  BlockPartsLibrary library;
+  const BlockModel low(block(moved(solid, way), 1));
+  (void)BlockModel(block(solid, 1)).with_order(3, library);
+  const BlockModel shared = low.with_order(3, library), alone = low.with_order(3);
+  EXPECT_EQ(library.size(), 1U);
+  EXPECT_EQ(shared.order(), 3);
+  EXPECT_EQ(shared.parts()->stiffness, alone.parts()->stiffness);
+  EXPECT_EQ(shared.parts()->mean_gradients, alone.parts()->mean_gradients);
+  EXPECT_EQ(shared.basis().identity_map(), alone.basis().identity_map());
+}
+
 TEST(BlockParts, SupportedPointsMoveWithTheShape) {
   const auto shape = std::make_shared<const Polyhedron>(make_box({0, 0, 0}, {1, 2, 4}));
   BlockDefinition definition = block(moved(*shape, {16, 0, 0}));

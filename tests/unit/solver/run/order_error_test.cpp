@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/run/order_error_work.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar::order_error_test {
@@ -108,6 +109,85 @@ TEST(OrderError, WithoutDeformationThereIsNone) {
   ASSERT_TRUE(run_until(simulation, 0.01));
   EXPECT_EQ(relative_error(order_errors(simulation)), 0.0);
   EXPECT_EQ(relative_error({}), 0.0);
+}
+
+// Gravity acts on the mean alone, and nothing else acts: no work is needed to know that there is no error.
+TEST(OrderError, AFreeBlockNeedsNoModelOfHigherOrder) {
+  for (const int order : {1, 3}) {
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(bar_of(order));
+    Simulation simulation(std::move(blocks), {{{1, 0, 3}, {0, 0, 0}}}, same_law({1e9, 1e9, 0.5}),
+                          SimulationSettings{});
+    for (const double time : {0.0, 0.01}) {
+      ASSERT_TRUE(run_until(simulation, time));
+      const OrderErrors found = order_errors_within(simulation, 0.0);
+      EXPECT_EQ(found.blocks, 1);
+      ASSERT_EQ(found.errors.size(), 1U) << order << ' ' << time;
+      EXPECT_EQ(found.errors[0].block, 0);
+      EXPECT_EQ(found.errors[0].lacks, 0.0);
+    }
+  }
+}
+
+/// Two bars that hang side by side, the second of twice the density.
+Simulation two_hanging() {
+  std::vector<BlockModel> blocks;
+  for (const int k : {0, 1}) {
+    BlockDefinition block =
+        block_of("bar", Polyhedron(make_box({8.0 * k, 0, 0}, {8.0 * k + area, 1, height})), bar, 1);
+    block.material.density *= 1 + k;
+    block.supports.push_back({Plane{{0, 0, height}, Vector3::UnitZ()}});
+    blocks.emplace_back(std::move(block));
+  }
+  Simulation simulation(std::move(blocks), {{}, {}}, same_law({1e9, 1e9, 0.5}), SimulationSettings{});
+  (void)simulation.settle_supported_blocks();
+  return simulation;
+}
+
+TEST(OrderError, LargestForcesComeFirstWithinALimitOfWork) {
+  const Simulation simulation = two_hanging();
+  const std::vector<OrderError> all = order_errors(simulation);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NEAR(all[0].lacks / exact, 0.25, 1e-9);
+  EXPECT_NEAR(all[1].lacks / exact, 4 * 0.25, 1e-9) << "squares of stresses";
+  // Order 3 of a box with 12 triangles: 20 * 20^3 + 50 * 12 * 20^2 for the model, 6 * 20^3 for the solution.
+  constexpr double of_one = 400000.0 + 48000.0;
+  for (const auto& [work, count] :
+       {std::pair{0.0, 0U}, {0.9 * of_one, 0U}, {1.9 * of_one, 1U}, {2.1 * of_one, 2U}}) {
+    const OrderErrors some = order_errors_within(simulation, work);
+    EXPECT_EQ(some.blocks, 2);
+    ASSERT_EQ(some.errors.size(), count) << work;
+    if (count != 1) continue;
+    EXPECT_EQ(some.errors[0].block, 1);
+    EXPECT_EQ(some.errors[0].lacks, all[1].lacks);
+    EXPECT_EQ(some.errors[0].energy, all[1].energy);
+  }
+}
+
+// Two bars on a base, with the same data or each with its own.
+TEST(OrderError, EqualBlocksHaveTheBitsOfSingleOnes) {
+  std::vector<std::vector<OrderError>> errors;
+  for (const bool shared : {false, true}) {
+    BlockPartsLibrary library;
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(fixed_box({-1, -1, -1}, {10, 2, 0}));
+    for (const double x : {0.0, 8.0}) {
+      BlockDefinition block = block_of("bar", Polyhedron(make_box({x, 0, 0}, {x + area, 1, height})), bar, 1);
+      shared ? (void)blocks.emplace_back(std::move(block), library)
+             : (void)blocks.emplace_back(std::move(block));
+    }
+    EXPECT_EQ(blocks[1].parts() == blocks[2].parts(), shared);
+    Simulation simulation(std::move(blocks), {{}, {}, {}}, same_law({1e11, 1e11, 0.5, 0.0, 0.0, true}),
+                          SimulationSettings{});
+    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+    errors.push_back(order_errors(simulation));
+    ASSERT_EQ(errors.back().size(), 2U);
+  }
+  for (const std::size_t k : {0U, 1U}) {
+    EXPECT_NEAR(errors[1][k].lacks / exact, 0.25, 1e-3);
+    EXPECT_EQ(errors[1][k].lacks, errors[0][k].lacks);
+    EXPECT_EQ(errors[1][k].energy, errors[0][k].energy);
+  }
 }
 
 TEST(OrderError, RigidBlocksAndThoseOfTheLargestOrderHaveNone) {

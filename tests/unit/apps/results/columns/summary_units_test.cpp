@@ -51,11 +51,12 @@ TEST_P(EverySummary, HasAUnitForEachNumber) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySummary,
-                         testing::Values("limits/plane.toml", "limits/flat_arch.toml", "slopes/incline.toml",
-                                         "bolts/slope.toml", "bolts/struts.toml", "restitution/landing.toml",
-                                         "ground/tension_crack.toml", "joints/dilation_load.toml",
-                                         "one_block/cantilever.toml", "bonds/tie.toml",
-                                         "accuracy/swelling.toml", "accuracy/tumbling.toml"));
+                         testing::Values("limits/plane.toml", "limits/flat_arch.toml", "pushover/block.toml",
+                                         "slopes/incline.toml", "bolts/slope.toml", "bolts/struts.toml",
+                                         "restitution/landing.toml", "ground/tension_crack.toml",
+                                         "joints/dilation_load.toml", "one_block/cantilever.toml",
+                                         "bonds/tie.toml", "accuracy/swelling.toml",
+                                         "accuracy/tumbling.toml"));
 
 }  // namespace
 }  // namespace ashlar::summary_units_test

@@ -58,6 +58,23 @@ TEST_F(AccuracySummary, BlocksLeftAtLowOrdersAreCounted) {
   EXPECT_EQ(accuracy_summary(scene_, simulation_, state_)["skipped"], 0);
 }
 
+// Lacks of 1 and 3 J beside energies of 3 and 9 J: a quarter of each, and of both, half in the norm of the energy.
+TEST_F(AccuracySummary, BlocksThatWereNotEstimatedAreTold) {
+  const OrderErrors some{{{1, 3.0, 1.0}, {1, 9.0, 3.0}}, 5};
+  const auto json = error_summary(simulation_, some);
+  EXPECT_EQ(json["estimate"], 0.5);
+  EXPECT_EQ(json["by"]["order"], 0.5);
+  EXPECT_EQ(json["blocks"].size(), 2U);
+  EXPECT_EQ(json["blocks"][0], (nlohmann::ordered_json{{"block", "box"}, {"order", 3}, {"estimate", 0.5}}));
+  EXPECT_EQ(json["blocks_estimated"], 2);
+  EXPECT_EQ(json["blocks_in_all"], 5);
+  const auto none = error_summary(simulation_, {{}, 5});
+  EXPECT_FALSE(none.contains("estimate")) << "nothing is known of it";
+  EXPECT_TRUE(none["blocks"].empty());
+  EXPECT_EQ(none["blocks_estimated"], 0);
+  EXPECT_EQ(none["blocks_in_all"], 5);
+}
+
 TEST_F(AccuracySummary, ErrorsOfMeasuresAreByName) {
   nlohmann::ordered_json json;
   add_measure_errors(scene_, {{{1.0}, 0.1}, {{1.0}, 0.2}}, json);
