@@ -19,7 +19,7 @@ struct ChordError {
 };
 
 /// Largest share at present, at the contacts of the last step. Empty: no face that may curve presses a block, or several
-/// ranks share the run
+/// processes share the run
 [[nodiscard]] std::optional<ChordError> largest_chord_error(const Simulation& simulation);
 
 /// Contact of a block with one other block.

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +19,6 @@
 #include <vector>
 
 #include "apps/results/folder/accuracy_state.hpp"
-#include "apps/results/folder/contact_changes.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/folder/motion_verdict.hpp"
 #include "apps/results/folder/result_folder.hpp"
@@ -27,8 +27,8 @@
 #include "apps/results/folder/run_status.hpp"
 #include "apps/results/folder/scene_identity.hpp"
 #include "apps/results/tables/block_points.hpp"
-#include "apps/results/tables/measure.hpp"
 #include "apps/run/answers/answer.hpp"
+#include "apps/run/run_end.hpp"
 #include "apps/run/run_observer.hpp"
 #include "apps/scene/assemble/build_simulation.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
@@ -37,9 +37,11 @@
 
 namespace ashlar {
 
-class AnswerSearch;
-class CheckpointSaver;
-class FolderRecorder;
+class RunFindings;
+class RunHistory;
+class RunPreparation;
+class RunRecord;
+class RunStages;
 struct RunCheckpoint;
 
 /// Options of a run.
@@ -50,6 +52,7 @@ struct RunManner {
   /// Processes that share the run, each with a Run of its own that its caller steps; null: none. Observers, records and
   /// rows are for the first one
   const RunRanks* ranks = nullptr;
+  bool all_errors = false;  ///< a summary has the errors of the orders of all blocks, however long they take
 };
 
 class Run {
@@ -80,26 +83,26 @@ class Run {
   bool step();
 
   /// Empty until the run has ended.
-  [[nodiscard]] std::optional<RunStatus> status() const { return status_; }
+  [[nodiscard]] std::optional<RunStatus> status() const { return end_.status; }
   /// Moving blocks, the answer of a search, or the reason of a failure; empty: no message.
-  [[nodiscard]] const std::string& message() const { return message_; }
+  [[nodiscard]] const std::string& message() const { return end_.message; }
   /// Reason why the end of a failed run is not saved; empty: it is saved, or not recorded.
-  [[nodiscard]] const std::string& unsaved() const { return unsaved_; }
+  [[nodiscard]] const std::string& unsaved() const { return end_.unsaved; }
   /// 1-based number of the present stage; 0: the scene has none.
-  [[nodiscard]] int stage() const { return whole().stage.empty() ? 0 : place_.stage; }
+  [[nodiscard]] int stage() const;
   /// Status of the present stage at its end.
-  [[nodiscard]] RunStatus stage_status() const { return stage_status_; }
+  [[nodiscard]] RunStatus stage_status() const { return end_.stage; }
   /// True if a stage follows the present one, which has reached its end.
-  [[nodiscard]] bool stage_follows() const { return phase_ == Phase::stage_over; }
+  [[nodiscard]] bool stage_follows() const;
   /// The scene of all stages, and of the present one.
-  [[nodiscard]] const Scene& whole() const { return scene_->scene; }
-  [[nodiscard]] const Scene& scene() const { return present_->scene; }
-  [[nodiscard]] const SceneIdentity& identity() const { return identity_; }
+  [[nodiscard]] const Scene& whole() const;
+  [[nodiscard]] const Scene& scene() const;
+  [[nodiscard]] const SceneIdentity& identity() const;
   /// Blocks, states, contacts, time (s, of the present stage), steps. During a search for a factor: as placed.
-  [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
-  [[nodiscard]] const BuiltSimulation& built() const { return built_; }
+  [[nodiscard]] const Simulation& simulation() const;
+  [[nodiscard]] const BuiltSimulation& built() const;
   /// Of a search; empty until it has ended.
-  [[nodiscard]] const Answer& answer() const { return answer_; }
+  [[nodiscard]] const Answer& answer() const;
 
   /// Index of a block in simulation().blocks(). @throws std::out_of_range if there is none of that name
   [[nodiscard]] int block(const std::string& name) const;
@@ -127,7 +130,7 @@ class Run {
   /// history.units.json: their units and meanings.
   [[nodiscard]] std::string column_units() const;
   /// Rows for the start, once the run has begun, and for each step, with the values of columns().
-  [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
+  [[nodiscard]] const std::vector<std::vector<double>>& rows() const;
 
   /// Attaches an observer, which is told that the run and its stage begin if they have begun already.
   /// @param observer not null. @throws its exceptions: it is not attached then
@@ -136,7 +139,7 @@ class Run {
   /// checkpoints, and the summary at the end. @throws ClaimRefused, std::runtime_error; std::logic_error if the run is
   /// recorded already, or has ended
   void record(const std::filesystem::path& folder, ClaimPurpose purpose = ClaimPurpose::new_run);
-  /// @param claim not null but on ranks other than the first, which take part in checkpoints
+  /// @param claim not null but on processes other than the first, which take part in checkpoints
   /// @param interval s between checkpoints; empty: growing, see CheckpointSchedule
   /// @param kept true: a search for a factor continues with the trials in the folder
   void record(std::shared_ptr<const FolderClaim> claim, std::optional<double> interval, bool kept);
@@ -155,22 +158,25 @@ class Run {
   [[nodiscard]] RunCheckpoint checkpoint_without_pairs() const;
   /// Largest values, with displacements relative to the last reset by a stage.
   [[nodiscard]] LargestValues largest() const;
-  /// Errors of the orders of blocks: of a dynamic run at present, of a static analysis in equilibrium. Empty: others
+  /// Errors of the orders of all blocks, however long it takes: of a dynamic run at present, of a static analysis in
+  /// equilibrium. Empty: others
   [[nodiscard]] std::vector<OrderError> order_errors() const;
+  /// The same within the work that a summary may take, unless RunManner::all_errors (order_error_work.hpp).
+  [[nodiscard]] OrderErrors summary_order_errors() const;
+  /// `error` of summary.json with order_errors(), as JSON; "null": nothing is estimated
+  [[nodiscard]] std::string errors() const;
   /// Errors of the measures of a static analysis that has ended in equilibrium, without analysis.accuracy. Empty: others
-  [[nodiscard]] const std::vector<GoalError>& measure_errors() const { return measure_errors_; }
+  [[nodiscard]] const std::vector<GoalError>& measure_errors() const;
   /// Choices for analysis.accuracy; null: the scene has none, or the run has not begun
-  [[nodiscard]] const AccuracyState* accuracy() const {
-    return chosen_ && whole().analysis.accuracy ? &accuracy_ : nullptr;
-  }
+  [[nodiscard]] const AccuracyState* accuracy() const;
   /// Of the last stage in time that has ended; empty: none has.
-  [[nodiscard]] const std::optional<MotionVerdict>& verdict() const { return verdict_; }
+  [[nodiscard]] const std::optional<MotionVerdict>& verdict() const;
   /// summary.json, with the answer of a search; status interrupted if the run has not ended.
   [[nodiscard]] std::string summary() const;
   /// The same of a record. @param frames written so far
   [[nodiscard]] std::string summary(int frames, const LargestValues& largest) const;
   /// Position in the stages, for results.
-  [[nodiscard]] const StagePlace& place() const { return place_; }
+  [[nodiscard]] const StagePlace& place() const;
   /// Writes the summary of a recorded run now.
   void write_summary() const;
   /// Writes the present state as the only frame, all rows and the summary into a result folder, replacing existing
@@ -179,81 +185,34 @@ class Run {
   void write(const std::filesystem::path& folder) const;
 
  private:
-  enum class Phase {
-    preparing,    ///< before the initial state is found
-    stage_start,  ///< before the first step of a stage
-    in_stage,
-    stage_over,  ///< another stage follows
-  };
-
   Run(const std::shared_ptr<const LoadedScene>& scene, const RunManner& manner);
-  void prepare_piece();
-  bool choose_accuracy();
-  bool start_statically();
-  bool search_piece();
+  [[nodiscard]] bool prepares() const;
+  void prepare();
+  void start_record();
   void advance();
   bool begin_next_stage();
-  void reset_displacement();
   void take_step();
-  [[nodiscard]] GoalValues goals_of_measures() const;
-  void estimate_measures();
   void take_iteration();
-  void end_undecided();
   void show_state();
+  bool attempt(const std::function<void()>& step);
   bool accept_step();
-  void gather_due();
-  [[nodiscard]] ResultFolder::Due due() const;
   bool record_step();
   void end_stage(RunStatus status, std::string message);
-  void end(RunStatus status);
-  [[nodiscard]] bool moves_in_time() const;
-  [[nodiscard]] FallRecord falls_of_run() const;
-  void judge_motion();
-  void fail_in_step(const std::exception& error);
-  void fail_to_write(const std::exception& error);
+  void end_undecided();
   void interrupt();
-  bool tell(void (RunObserver::*event)(const Run&));
-  bool goes_on() const;
-  bool told_on_all(bool told);
-  [[nodiscard]] bool shared() const { return manner_.ranks != nullptr && manner_.ranks->several(); }
-  void save_after_failure(RunObserver& observer);
-  void add_row();
-  [[nodiscard]] FinishedStage finished(RunStatus status) const;
+  void end(RunStatus status);
+  [[nodiscard]] FinishedStage stage_at_end(RunStatus status) const;
+  [[nodiscard]] RunCheckpoint checkpoint_with(SimulationSnapshot simulation) const;
 
-  std::shared_ptr<const LoadedScene> scene_;    ///< of all stages
-  std::shared_ptr<const LoadedScene> present_;  ///< the present stage
-  SceneIdentity identity_;
-  RunManner manner_;
   RunClock clock_;
-  BuiltSimulation built_;
-  std::vector<Measure> measures_;
-  Phase phase_ = Phase::preparing;
-  bool chosen_ = false;                     ///< orders and sub-faces of a scene with an accuracy are known
-  AccuracyState accuracy_;                  ///< of a scene with an accuracy
-  bool started_ = false;                    ///< the initial equilibrium, if one is required, is known
-  std::unique_ptr<RunCheckpoint> earlier_;  ///< until the run has begun; null: none
-  std::unique_ptr<AnswerSearch> search_;    ///< while it runs
-  Answer answer_;
-  StagePlace place_;
-  std::vector<FinishedStage> finished_;  ///< those before the present stage
-  RunStatus stage_status_ = RunStatus::completed;
-  std::vector<std::vector<double>> rows_;
-  std::vector<GoalError> measure_errors_;
-  std::vector<RankWork> rank_work_;       ///< of processes that share the run, at its end
-  ResultNeeds row_needs_;                 ///< of a row, on processes that share the run
-  FallRecord falls_;                      ///< in steps in time, of the blocks of this process
-  std::optional<MotionVerdict> verdict_;  ///< at the end of a stage in time
-  ContactChanges changes_;                ///< of static iterations of the present stage
-  std::optional<RunStatus> status_;
-  std::string message_;
-  std::string unsaved_;
-  std::unique_ptr<const BlockPoints> points_;
-  RunObservers observers_;
-  std::shared_ptr<FolderRecorder> recorder_;  ///< null: none
-  std::shared_ptr<CheckpointSaver> saver_;
-  std::shared_ptr<const FolderClaim> claim_;
-  std::optional<double> checkpoint_interval_;
-  bool keeps_trials_ = false;
+  RunEnd end_;
+  // Parts of a run; none knows the others but from arguments.
+  std::unique_ptr<RunStages> stages_;            ///< the simulation, and its place in the stages
+  std::unique_ptr<RunPreparation> preparation_;  ///< before the first step; its choices and answer
+  std::unique_ptr<RunHistory> history_;          ///< measures, and rows in memory
+  std::unique_ptr<RunRecord> record_;            ///< observers, and the record in a folder
+  std::unique_ptr<RunFindings> findings_;        ///< verdict, errors, work
+  std::unique_ptr<const BlockPoints> points_;    ///< of callers
 };
 
 }  // namespace ashlar

@@ -15,7 +15,7 @@
 #include "apps/run/answers/crushing_run.hpp"
 #include "apps/run/contact_resolution.hpp"
 #include "apps/scene/assemble/initial_state.hpp"
-#include "apps/scene/check/soft_blocks.hpp"
+#include "apps/scene/check/warnings/soft_blocks.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -193,7 +193,7 @@ void warn_of_order(const Run& run, std::ostream& err) {
   }
   if (run.status() != RunStatus::equilibrium) return;
   warn_of_measures(run, err);
-  const std::vector<OrderError> errors = run.order_errors();
+  const std::vector<OrderError> errors = run.summary_order_errors().errors;
   const std::optional<OrderError> coarse = coarse_block(simulation, errors);
   if (!coarse) return;
   const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(coarse->block)];

@@ -9,7 +9,8 @@
 #include "apps/run/answers/answer_search.hpp"
 #include "apps/run/answers/limit_run.hpp"
 #include "apps/run/answers/movement_run.hpp"
-#include "apps/scene/check/loose_blocks.hpp"
+#include "apps/run/answers/pushover_run.hpp"
+#include "apps/scene/check/warnings/loose_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 
 namespace ashlar {
@@ -30,14 +31,15 @@ void refuse_idle_searches(const Scene& scene, const Simulation& placed, Diagnost
   const std::optional<RigidModel> model = limit_model(scene, placed);
   refuse_idle_limits(scene, placed, model, diagnostics);
   refuse_movements(scene, model, diagnostics);
+  refuse_pushover(scene, model, diagnostics);
 }
 
 /// @throws std::runtime_error with the first fault
 BuiltSimulation built_with(const LoadedScene& stage, int threads, const TrialFactors& factors,
-                           const RunRanks* ranks) {
+                           const RunGroup& group) {
   Diagnostics diagnostics;
   std::optional<BuiltSimulation> built =
-      build_simulation(stage, threads, diagnostics, nullptr, factors, ranks);
+      build_simulation(stage, threads, diagnostics, nullptr, factors, group.ranks());
   if (built) return std::move(*built);
   const std::vector<Diagnostic> faults = diagnostics.sorted();
   throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
@@ -53,31 +55,31 @@ std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const Loade
 
 std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedScene> first, int threads,
                                                  Diagnostics& diagnostics, Preparation* preparation,
-                                                 const RunRanks* ranks) {
+                                                 const RunGroup& group) {
   const Scene& scene = first->scene;
   std::optional<BuiltSimulation> built =
-      build_simulation(*first, threads, diagnostics, preparation, {}, ranks);
+      build_simulation(*first, threads, diagnostics, preparation, {}, group.ranks());
   if (built) built->scene = first;
   if (built && is_static(scene.analysis)) refuse_loose_blocks(scene, built->simulation, diagnostics);
   if (!built || !diagnostics.good()) return built;
-  if (ranks == nullptr || !ranks->several()) {
+  if (!group.shared()) {
     refuse_idle_searches(scene, built->simulation, diagnostics);
-  } else if (ranks->first() && seeks_answer(scene.analysis)) {
+  } else if (group.first() && seeks_answer(scene.analysis)) {
     const BuiltSimulation whole = built_or_thrown(*first, threads);
     refuse_idle_searches(scene, whole.simulation, diagnostics);
   }
-  // Other ranks have no models of blocks elsewhere.
-  if (ranks == nullptr || ranks->first()) refuse_idle_cracks(scene, built->simulation.blocks(), diagnostics);
+  // Other processes have no models of blocks elsewhere.
+  if (group.first()) refuse_idle_cracks(scene, built->simulation.blocks(), diagnostics);
   return built;
 }
 
 BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads) {
-  return built_with(stage, threads, {}, nullptr);
+  return built_with(stage, threads, {}, {});
 }
 
-BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads, const RunRanks* ranks,
+BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads, const RunGroup& group,
                             const TrialFactors& factors) {
-  BuiltSimulation built = built_with(*stage, threads, factors, ranks);
+  BuiltSimulation built = built_with(*stage, threads, factors, group);
   built.scene = std::move(stage);
   return built;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/run/run_group.hpp"
 #include "apps/scene/assemble/build_simulation.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
 
@@ -14,18 +15,19 @@ namespace ashlar {
                                                              std::size_t stage);
 
 /// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, searches
-/// with nothing to find, and cracks without joints. On several ranks the first one alone reports the last two.
-/// @param first of stage_scene(), kept with the result. @param threads >= 1. @param ranks see build_simulation
+/// with nothing to find, and cracks without joints. Of several processes the first one alone reports the last two.
+/// @param first of stage_scene(), kept with the result. @param threads >= 1. @param group collective; the scene must
+/// be the same on all processes
 /// @return empty if a block cannot be built
 [[nodiscard]] std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedScene> first,
                                                                int threads, Diagnostics& diagnostics,
                                                                Preparation* preparation = nullptr,
-                                                               const RunRanks* ranks = nullptr);
+                                                               const RunGroup& group = {});
 
 /// The simulation of a stage. @throws std::runtime_error if its blocks cannot be built
 [[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads);
-/// The same, which ranks may share; collective then. @param stage not null, kept with the result. @param ranks null: none
+/// The same for a group of processes. Collective. @param stage not null, kept with the result
 [[nodiscard]] BuiltSimulation built_stage(std::shared_ptr<const LoadedScene> stage, int threads,
-                                          const RunRanks* ranks, const TrialFactors& factors = {});
+                                          const RunGroup& group, const TrialFactors& factors = {});
 
 }  // namespace ashlar

@@ -11,7 +11,7 @@
 #include "apps/results/folder/identity_json.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/scene_difference.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/toml/input_file.hpp"
 
 namespace ashlar {

@@ -1,5 +1,5 @@
-// Answers of analyses that search before they show a motion: factor of safety, load factor, thrust and movements of
-// supports.
+// Answers of analyses that search before they show a motion: factor of safety, load factor, thrust, movements of supports
+// and pushovers.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "apps/run/answers/factor_search.hpp"
+#include "apps/run/answers/kinematic_check.hpp"
 #include "apps/run/answers/shown_state.hpp"
 #include "solver/limit/least_strength.hpp"
 #include "solver/limit/limit_analysis.hpp"
 #include "solver/limit/rigid_bolts.hpp"
 #include "solver/paths/path_search.hpp"
+#include "solver/paths/pushover.hpp"
 #include "solver/paths/support_movement.hpp"
 #include "solver/paths/thrust.hpp"
 #include "solver/run/simulation.hpp"
@@ -65,24 +67,40 @@ struct ThrustFindings {
   std::string collapse;  ///< moving blocks, if no forces within the strengths balance the loads
 };
 
+/// A pushover along one direction.
+struct PushedDirection {
+  Vector3 direction = Vector3::UnitX();  ///< unit
+  Pushover path;
+  std::optional<KinematicCheck> check;  ///< of forces in proportion to mass that move something
+};
+
+struct PushoverFindings {
+  std::vector<PushedDirection> directions;  ///< at least one
+  int weakest = 0;                          ///< index of the one with the least multiplier
+  [[nodiscard]] const PushedDirection& weakest_direction() const {
+    return directions[static_cast<std::size_t>(weakest)];
+  }
+};
+
 /// Empty of a static or dynamic analysis.
 struct Answer {
   std::optional<FactorBracket> bracket;  ///< of a search by static analyses
   std::optional<LimitFindings> limits;   ///< of a search by limit analysis; beside bracket: where that began
   std::optional<ThrustFindings> thrust;
+  std::optional<PushoverFindings> pushover;
   std::string method_reason;  ///< why a factor is sought by its method; empty: the scene names it
-  /// Of limit analysis and thrust: the states that the answer speaks of, each a step of the run.
+  /// Of limit analysis, thrust and pushovers: the states that the answer speaks of, each a step of the run.
   std::vector<ShownState> states;
 
   /// True if the run shows these states only, without an analysis of its own.
-  [[nodiscard]] bool shows_states() const { return (limits && !bracket) || thrust; }
+  [[nodiscard]] bool shows_states() const { return (limits && !bracket) || thrust || pushover; }
 };
 
 /// Lists all members, for messages: inlined, gcc takes an empty bracket for one that is not initialised.
 template <class Archive>
 [[gnu::noinline]] void visit_members(Archive& archive, Answer& answer) {
-  auto& [bracket, limits, thrust, method_reason, states] = answer;
-  archive(bracket, limits, thrust, method_reason, states);
+  auto& [bracket, limits, thrust, pushover, method_reason, states] = answer;
+  archive(bracket, limits, thrust, pushover, method_reason, states);
 }
 
 }  // namespace ashlar

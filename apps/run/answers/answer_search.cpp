@@ -6,9 +6,9 @@
 
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/run/answers/limit_run.hpp"
+#include "apps/run/answers/pushover_run.hpp"
 #include "apps/run/answers/thrust_run.hpp"
 #include "apps/run/run_setup.hpp"
-#include "solver/ranks/rank_messages.hpp"
 
 namespace ashlar {
 namespace {
@@ -21,7 +21,7 @@ std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>
   return ExpectedFactor{*path.lower, *path.upper};
 }
 
-/// Answer of the first rank for all.
+/// Answer of the first process for all.
 struct FoundLimits {
   LimitFindings limits;
   std::vector<ShownState> states;
@@ -32,36 +32,44 @@ struct FoundThrust {
   std::vector<ShownState> states;
 };
 
+struct FoundPushover {
+  PushoverFindings pushover;
+  std::vector<ShownState> states;
+};
+
 bool seeks_thrust(const SceneAnalysis& analysis) {
   return analysis.type == SceneAnalysis::Type::thrust;
+}
+
+bool seeks_pushover(const SceneAnalysis& analysis) {
+  return analysis.type == SceneAnalysis::Type::pushover;
 }
 
 }  // namespace
 
 bool seeks_answer(const SceneAnalysis& analysis) {
-  return seeks_factor(analysis) || seeks_thrust(analysis);
+  return seeks_factor(analysis) || seeks_thrust(analysis) || seeks_pushover(analysis);
 }
 
 AnswerSearch::AnswerSearch(std::shared_ptr<const LoadedScene> scene, std::uint64_t hash,
-                           const Simulation& placed, int threads, TrialStorage storage, const RunRanks* ranks)
+                           const Simulation& placed, int threads, TrialStorage storage, const RunGroup& group)
     : scene_(std::move(scene)),
       hash_(hash),
       threads_(threads),
       storage_(std::move(storage)),
-      shared_(ranks != nullptr && ranks->several() ? ranks : nullptr),
-      ranks_(shared_ != nullptr ? shared_->ranks : alone_),
-      plan_(value_of_first(ranks_, [&] { return planned(placed); })),
-      stores_(value_of_first(ranks_, [&] { return storage_.claim != nullptr; })) {}
+      group_(group),
+      plan_(group_.result_of_first([&] { return planned(placed); })),
+      stores_(group_.result_of_first([&] { return storage_.claim != nullptr; })) {}
 
-/// Makes the rigid model, on the first rank.
+/// Makes the rigid model, on the first process.
 AnswerSearch::Plan AnswerSearch::planned(const Simulation& placed) {
-  if (shared_ != nullptr) whole_.emplace(built_or_thrown(*scene_, threads_));
+  if (group_.shared()) whole_.emplace(built_or_thrown(*scene_, threads_));
   model_ = limit_model(scene_->scene, whole_ ? whole_->simulation : placed);
   const MethodChoice method = choose_method(scene_->scene, whole_ ? whole_->simulation : placed, model_);
   const bool by_limits = method.limit;
   // A search by static analyses begins with the result of limit analysis for the same strengths.
   const bool limits_first = by_limits || (model_ && !loses_strength(*model_));
-  if (!limits_first && !seeks_thrust(scene_->scene.analysis)) {
+  if (!limits_first && !seeks_thrust(scene_->scene.analysis) && !seeks_pushover(scene_->scene.analysis)) {
     model_.reset();
     whole_.reset();
   }
@@ -69,11 +77,12 @@ AnswerSearch::Plan AnswerSearch::planned(const Simulation& placed) {
 }
 
 bool AnswerSearch::goes_on(const RunObservers& observers) const {
-  return !any_rank(ranks_, !observers.go_on());
+  return !group_.any(!observers.go_on());
 }
 
 bool AnswerSearch::advance(const Simulation& placed, const RunObservers& observers) {
   if (seeks_thrust(scene_->scene.analysis)) return find_thrust_first(placed, observers);
+  if (seeks_pushover(scene_->scene.analysis)) return find_pushover_first(placed, observers);
   if (!plan_.reason.empty()) {
     answer_.method_reason = std::exchange(plan_.reason, "");
     observers.tell(&RunObserver::method_chosen, plan_.by_limits, answer_.method_reason);
@@ -84,7 +93,7 @@ bool AnswerSearch::advance(const Simulation& placed, const RunObservers& observe
 
 bool AnswerSearch::find_thrust_first(const Simulation& placed, const RunObservers& observers) {
   bool stopped = false;
-  FoundThrust found = value_of_first(ranks_, [&] {
+  FoundThrust found = group_.result_of_first([&] {
     const Simulation& simulation = whole_ ? whole_->simulation : placed;
     FoundThrust first;
     first.thrust = find_thrust(scene_->scene, std::exchange(model_, std::nullopt).value(), simulation,
@@ -95,13 +104,32 @@ bool AnswerSearch::find_thrust_first(const Simulation& placed, const RunObserver
   answer_.thrust = std::move(found.thrust);
   answer_.states = std::move(found.states);
   whole_.reset();
-  if (any_rank(ranks_, stopped) || !goes_on(observers))
+  if (group_.any(stopped) || !goes_on(observers))
     interrupted_ = "interrupted while supports moved, which a new run begins with";
   return false;
 }
 
+bool AnswerSearch::find_pushover_first(const Simulation& placed, const RunObservers& observers) {
+  bool stopped = false;
+  FoundPushover found = group_.result_of_first([&] {
+    const Simulation& simulation = whole_ ? whole_->simulation : placed;
+    FoundPushover first;
+    first.pushover = find_pushover(scene_->scene, simulation, threads_,
+                                   [&] { return !(stopped = stopped || !observers.go_on()); });
+    first.states = pushover_states(first.pushover);
+    return first;
+  });
+  answer_.pushover = std::move(found.pushover);
+  answer_.states = std::move(found.states);
+  model_.reset();
+  whole_.reset();
+  if (group_.any(stopped) || !goes_on(observers))
+    interrupted_ = "interrupted while blocks were pushed, which a new run begins with";
+  return false;
+}
+
 bool AnswerSearch::find_limits_first(const Simulation& placed, const RunObservers& observers) {
-  FoundLimits found = value_of_first(ranks_, [&] {
+  FoundLimits found = group_.result_of_first([&] {
     const Simulation& simulation = whole_ ? whole_->simulation : placed;
     FoundLimits first;
     first.limits = find_limits(scene_->scene, std::exchange(model_, std::nullopt).value(), simulation,
@@ -124,7 +152,7 @@ bool AnswerSearch::find_limits_first(const Simulation& placed, const RunObserver
 bool AnswerSearch::advance_trial(const RunObservers& observers) {
   if (!search_) {
     search_.emplace(search_of(scene_->scene.analysis), expected_factor(answer_.limits));
-    do_on_all(ranks_, [&] {
+    group_.do_on_each([&] {
       if (storage_.claim)
         trials_ = std::make_unique<TrialFolder>(storage_.claim, hash_, storage_.resume, storage_.interval);
     });
@@ -136,7 +164,7 @@ bool AnswerSearch::advance_trial(const RunObservers& observers) {
   }
   if (trial_->iterate()) {
     observers.tell(&RunObserver::trial_continues, trial_->factor(), trial_->iterations());
-    if (stores_ && value_of_first(ranks_, [&] { return trials_->due(); })) save_trial();
+    if (stores_ && group_.result_of_first([&] { return trials_->due(); })) save_trial();
     return true;
   }
   store_result();
@@ -153,12 +181,12 @@ bool AnswerSearch::begin_trial(const RunObservers& observers) {
     return false;
   }
   if (stores_) {
-    if (const auto known = value_of_first(ranks_, [&] { return trials_->find(*factor); })) {
+    if (const auto known = group_.result_of_first([&] { return trials_->find(*factor); })) {
       add(*known, "", observers);
       return false;
     }
   }
-  trial_.emplace(*scene_, *factor, threads_, shared_);
+  trial_.emplace(*scene_, *factor, threads_, group_);
   if (trial_->result()) {
     store_result();
     add(*trial_->result(), "", observers);
@@ -166,20 +194,20 @@ bool AnswerSearch::begin_trial(const RunObservers& observers) {
     return false;
   }
   if (stores_)
-    if (const auto state = value_of_first(ranks_, [&] { return trials_->begin(*factor); }))
+    if (const auto state = group_.result_of_first([&] { return trials_->begin(*factor); }))
       trial_->restore(*state);
   return true;
 }
 
 void AnswerSearch::save_trial() {
   const RunCheckpoint state = trial_->state();
-  do_on_all(ranks_, [&] {
+  group_.do_on_each([&] {
     if (trials_) trials_->save(trial_->factor(), state);
   });
 }
 
 void AnswerSearch::store_result() {
-  do_on_all(ranks_, [&] {
+  group_.do_on_each([&] {
     if (trials_) trials_->add(*trial_->result());
   });
 }

@@ -1,5 +1,5 @@
-// The search for an answer before a run shows a motion: a factor by limit analysis, by static analyses or by both, or
-// thrust and movements of supports (notes/factor_of_safety.md).
+// The search for an answer before a run shows a motion: a factor by limit analysis, by static analyses or by both, thrust
+// and movements of supports, or a pushover (notes/factor_of_safety.md).
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include "apps/run/answers/answer.hpp"
 #include "apps/run/answers/trial_folder.hpp"
 #include "apps/run/answers/trial_run.hpp"
+#include "apps/run/run_group.hpp"
 #include "apps/run/run_observer.hpp"
 #include "apps/scene/assemble/build_simulation.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
@@ -24,24 +25,25 @@ struct TrialStorage {
   std::optional<double> interval;            ///< s between states; empty: growing, see CheckpointSchedule
 };
 
-/// On several ranks all members but plain values are collective. Limit analysis and thrust are work of the first rank, which
-/// makes a simulation of all blocks for them; static analyses are shared. All ranks get the answer.
+/// All members but plain values are collective. Limit analysis, thrust and pushovers are work of the first process, which makes a
+/// simulation of all blocks for them; static analyses are shared. All processes get the answer.
 class AnswerSearch {
  public:
   /// @param scene not null, with a search. @param hash of the scene (scene_identity.hpp)
   /// @param placed blocks as placed, without factors. @param threads >= 1
-  /// @param storage of the first rank. @param ranks null: none
+  /// @param storage of the first process
   /// @throws std::runtime_error if blocks cannot be built
   AnswerSearch(std::shared_ptr<const LoadedScene> scene, std::uint64_t hash, const Simulation& placed,
-               int threads, TrialStorage storage, const RunRanks* ranks = nullptr);
+               int threads, TrialStorage storage, const RunGroup& group = {});
 
-  /// Takes a piece of the search: all of limit analysis, all of an analysis of thrust, or an iteration of a trial.
+  /// Takes a piece of the search: all of limit analysis, of an analysis of thrust or of a pushover, or an iteration of a
+  /// trial.
   /// @param placed as above. @return true if there is more to do
   /// @throws std::runtime_error with path and reason if a trial cannot be stored
   bool advance(const Simulation& placed, const RunObservers& observers);
 
   [[nodiscard]] bool interrupted() const { return !interrupted_.empty(); }
-  /// "interrupted after 3 static analyses, ..."; empty: it was not. On the first rank complete.
+  /// "interrupted after 3 static analyses, ..."; empty: it was not. On the first process complete.
   [[nodiscard]] const std::string& message() const { return interrupted_; }
   /// Complete once there is nothing more to do and the search was not interrupted.
   [[nodiscard]] const Answer& answer() const { return answer_; }
@@ -56,6 +58,7 @@ class AnswerSearch {
   [[nodiscard]] bool goes_on(const RunObservers& observers) const;
   bool find_limits_first(const Simulation& placed, const RunObservers& observers);
   bool find_thrust_first(const Simulation& placed, const RunObservers& observers);
+  bool find_pushover_first(const Simulation& placed, const RunObservers& observers);
   bool advance_trial(const RunObservers& observers);
   bool begin_trial(const RunObservers& observers);
   void save_trial();
@@ -67,16 +70,14 @@ class AnswerSearch {
   std::uint64_t hash_;
   int threads_;
   TrialStorage storage_;
-  const RunRanks* shared_;  ///< null: none
-  SingleRank alone_;
-  Ranks& ranks_;
-  std::optional<BuiltSimulation>
-      whole_;  ///< of several ranks the first one: all blocks, until the next two are known
-  std::optional<RigidModel> model_;  ///< until limit analysis or thrust has used it
+  RunGroup group_;
+  /// Of a shared run, on the first process: all blocks, until the next two are known
+  std::optional<BuiltSimulation> whole_;
+  std::optional<RigidModel> model_;  ///< until limit analysis, thrust or a pushover has used it
   Plan plan_;
   std::optional<FactorSearch> search_;
   bool stores_ = false;                  ///< trials are stored
-  std::unique_ptr<TrialFolder> trials_;  ///< null: not stored, or by another rank
+  std::unique_ptr<TrialFolder> trials_;  ///< null: not stored, or by another process
   std::optional<TrialRun> trial_;        ///< the present one
   Answer answer_;
   std::string interrupted_;

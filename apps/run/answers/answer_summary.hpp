@@ -12,7 +12,7 @@
 
 namespace ashlar {
 
-/// Adds thrust, factor_of_safety or load_factor. @param simulation at the end of the motion shown
+/// Adds thrust, pushover and kinematic, factor_of_safety or load_factor. @param simulation at the end of the motion shown
 void add_answer(nlohmann::ordered_json& summary, const Answer& answer, const SceneAnalysis& analysis,
                 const Simulation& simulation);
 
@@ -32,8 +32,8 @@ struct AnsweredEnd {
 [[nodiscard]] AnsweredEnd bracket_end(const Answer& answer, const SceneAnalysis& analysis,
                                       const Simulation& simulation, AnsweredEnd shown);
 
-/// Draws lines of thrust (thrust.svg) and the first support's movement (movement.svg) into a folder. Does nothing
-/// without them. @throws std::runtime_error with path and reason
+/// Draws lines of thrust (thrust.svg) and the first support's movement (movement.svg), or writes the files of a pushover
+/// (pushover_drawing.hpp), into a folder. Does nothing without them. @throws std::runtime_error with path and reason
 void draw_answer(const Answer& answer, const Scene& scene, const Simulation& simulation,
                  const std::filesystem::path& folder);
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/run/answers/block_name.hpp"
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/run/answers/limit_run.hpp"
-#include "apps/run/block_name.hpp"
 #include "apps/scene/check/crushing_checks.hpp"
 
 namespace ashlar {

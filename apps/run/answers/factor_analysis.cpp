@@ -29,7 +29,7 @@ const char* mode_of(const PairRecord& record) {
   return slides >= sticks ? "slides" : "sticks";
 }
 
-/// Each rank knows the present positions of its own blocks.
+/// Each process knows the present positions of its own blocks.
 bool any_displaced(const Simulation& simulation) {
   const std::vector<DisplacedBlock> displaced = displaced_blocks(simulation);
   return any_of_run(simulation.system(),

@@ -25,12 +25,12 @@ namespace ashlar {
 [[nodiscard]] TrialFactors trial_factors(const SceneAnalysis& analysis, double factor);
 
 /// An iteration of a static analysis under loads of a time, which ends as moving once blocks are displaced: wherever
-/// they come to rest, it is not their initial placement. With several ranks collective, as all functions of a simulation
+/// they come to rest, it is not their initial placement. Collective, as all functions of a simulation
 /// here that change it or decide about it.
 [[nodiscard]] StaticStatus trial_step(Simulation& simulation, double end_time);
 
 /// The same; an iteration that cannot be taken ends the analysis as inconclusive. @throws std::bad_alloc, as more memory
-/// may resolve it; on several ranks any exception, as others may wait for this one
+/// may resolve it; of several processes any exception, as others may wait for this one
 [[nodiscard]] StaticStatus attempted_step(Simulation& simulation, double end_time);
 
 /// Outcome of a static analysis that has ended.

@@ -11,6 +11,14 @@
 #include "mechanics/bolt/bolt_strength.hpp"
 
 namespace ashlar {
+namespace {
+
+/// True for answers that rigid blocks alone have.
+bool is_of_rigid_blocks(const SceneAnalysis& analysis) {
+  return analysis.type == SceneAnalysis::Type::thrust || analysis.type == SceneAnalysis::Type::pushover;
+}
+
+}  // namespace
 
 std::string lacking_bolt(const Simulation& simulation) {
   for (const Bolt& bolt : simulation.system().bolts()) {
@@ -25,16 +33,19 @@ std::string lacking_bolt(const Simulation& simulation) {
 }
 
 std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation) {
-  const bool asks = seeks_factor(scene.analysis) || scene.analysis.type == SceneAnalysis::Type::thrust;
+  const bool rigid = is_of_rigid_blocks(scene.analysis);
+  const bool asks = seeks_factor(scene.analysis) || rigid;
   if (!asks || scene.analysis.formulation == SceneAnalysis::Formulation::incremental) return std::nullopt;
-  const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
-  const bool by_choice = thrust || scene.analysis.method == SceneAnalysis::Method::limit;
+  const bool by_choice = rigid || scene.analysis.method == SceneAnalysis::Method::limit;
   if (!by_choice && !simulation.bolts().empty() &&
       (scene.analysis.method == SceneAnalysis::Method::elastic || !lacking_bolt(simulation).empty()))
     return std::nullopt;
   const bool multiplies = scene.analysis.type == SceneAnalysis::Type::capacity;
-  RigidModel model = simulation.rigid_model(scene.analysis.end_time,
-                                            multiplies ? multiplied_blocks(scene) : std::vector<bool>());
+  const bool pushes =
+      scene.analysis.type == SceneAnalysis::Type::pushover && !scene.analysis.pushover.blocks.empty();
+  RigidModel model = simulation.rigid_model(scene.analysis.end_time, multiplies ? multiplied_blocks(scene)
+                                                                     : pushes   ? pushed_by_loads(scene)
+                                                                                : std::vector<bool>());
   if (by_choice) keep_residual_strength(model);
   return model;
 }
@@ -64,14 +75,14 @@ bool is_brittle(const RigidModel& model) {
 
 /// Tells which strength an answer is for where joints lose it.
 void warn_of_lost_strength(const Scene& scene, const RigidModel& model, Diagnostics& diagnostics) {
-  const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
+  const bool rigid = is_of_rigid_blocks(scene.analysis);
   const bool chosen = scene.places.contains("analysis.method");
   const Place place = scene.places.value(chosen ? "analysis.method" : "analysis.type");
   if (model.has_residual_strength) {
     diagnostics.warning(
         place, fmt::format("joints lose strength when they fail: limit analysis has their residual strength, "
                            "the safe side{}",
-                           thrust ? "" : "; analysis.method = \"elastic\" follows their failure"));
+                           rigid ? "" : "; analysis.method = \"elastic\" follows their failure"));
   } else if (seeks_factor(scene.analysis) && is_brittle(model)) {
     diagnostics.warning(
         place,
@@ -86,10 +97,10 @@ void warn_of_lost_strength(const Scene& scene, const RigidModel& model, Diagnost
 
 void refuse_idle_limits(const Scene& scene, const Simulation& simulation,
                         const std::optional<RigidModel>& model, Diagnostics& diagnostics) {
-  const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
+  const bool rigid = is_of_rigid_blocks(scene.analysis);
   refuse_idle_crushing(scene, simulation, model, diagnostics);
   if (!model) {
-    if (thrust || (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit))
+    if (rigid || (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit))
       diagnostics.error(
           scene.places.value("analysis.formulation"),
           "limit analysis of the incremental formulation (\"incremental\"), \"total\" is needed");

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <map>
 
+#include "apps/run/answers/block_name.hpp"
 #include "apps/run/answers/crushing_run.hpp"
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/run/answers/path_run.hpp"
-#include "apps/run/block_name.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/state/automatic.hpp"

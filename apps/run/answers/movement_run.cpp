@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "apps/results/text/atomic_file.hpp"
-#include "apps/run/block_name.hpp"
-#include "apps/run/drawing_view.hpp"
+#include "apps/run/answers/block_name.hpp"
+#include "apps/run/answers/drawing_view.hpp"
 #include "apps/scene/model/block_names.hpp"
 #include "geometry/index.hpp"
 #include "solver/paths/yielding_support.hpp"

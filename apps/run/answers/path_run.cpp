@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/run/answers/block_name.hpp"
 #include "apps/run/answers/factor_analysis.hpp"
-#include "apps/run/block_name.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "apps/scene/assemble/limit_choices.hpp"
 #include "solver/state/automatic.hpp"

@@ -2,22 +2,20 @@
 
 #include <utility>
 
+#include "apps/run/run_group.hpp"
 #include "geometry/index.hpp"
-#include "solver/ranks/rank_messages.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar {
 namespace {
 
 /// The simulation's bolts with the forces of a state. Collective.
-void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation) {
+void set_bolts(const std::vector<BarForce>& forces, const RunGroup& group, Simulation& simulation) {
   if (forces.empty()) return;
   simulation.gather_results();
   SimulationSnapshot snapshot = simulation.snapshot();
   snapshot.run.bolts = bolts_under(forces, simulation.system().bolts(), simulation.bolts());
-  if (const SharedBlocks* shared = simulation.shared_blocks())
-    snapshot = std::move(values_of_ranks(shared->share->ranks(), snapshot).front());
-  simulation.restore(snapshot);
+  simulation.restore(group.value_of_first(snapshot));
 }
 
 }  // namespace
@@ -41,9 +39,9 @@ BalancedForces carried(BalancedForces forces, const std::vector<Eigen::MatrixX3d
   return forces;
 }
 
-void show(const ShownState& state, double end_time, Simulation& simulation) {
+void show(const ShownState& state, double end_time, const RunGroup& group, Simulation& simulation) {
   simulation.show(state.positions, state.forces.contacts, end_time);
-  set_bolts(state.forces.bars, simulation);
+  set_bolts(state.forces.bars, group, simulation);
 }
 
 }  // namespace ashlar

@@ -10,6 +10,8 @@
 
 namespace ashlar {
 
+class RunGroup;
+
 /// Forces that balance all loads within the strengths of joints and bolts.
 struct BalancedForces {
   std::vector<PairRecord> contacts;  ///< by pair
@@ -33,7 +35,8 @@ struct ShownState {
 [[nodiscard]] BalancedForces carried(BalancedForces forces, const std::vector<Eigen::MatrixX3d>& positions,
                                      const Simulation& placed);
 
-/// Takes the state as a step of the simulation. Collective. @param end_time of the loads, s
-void show(const ShownState& state, double end_time, Simulation& simulation);
+/// Takes the state as a step of the simulation. Collective. @param end_time of the loads, s. @param group that shares the
+/// simulation
+void show(const ShownState& state, double end_time, const RunGroup& group, Simulation& simulation);
 
 }  // namespace ashlar

@@ -6,10 +6,10 @@
 #include <map>
 
 #include "apps/results/text/atomic_file.hpp"
+#include "apps/run/answers/block_name.hpp"
+#include "apps/run/answers/drawing_view.hpp"
 #include "apps/run/answers/limit_run.hpp"
 #include "apps/run/answers/movement_run.hpp"
-#include "apps/run/block_name.hpp"
-#include "apps/run/drawing_view.hpp"
 #include "solver/limit/limit_analysis.hpp"
 
 namespace ashlar {

@@ -37,7 +37,6 @@ TrialFolder::TrialFolder(std::shared_ptr<const FolderClaim> claim, std::uint64_t
                          std::optional<double> interval)
     : claim_(std::move(claim)),
       scene_(scene),
-      interval_(interval),
       trials_path_(claim_->folder() / trials_name),
       state_path_(claim_->folder() / trial_state_name),
       schedule_(interval, RunClock::now()) {
@@ -63,7 +62,7 @@ std::optional<FactorTrial> TrialFolder::find(double factor) const {
 }
 
 std::optional<RunCheckpoint> TrialFolder::begin(double factor) {
-  schedule_ = CheckpointSchedule(interval_, RunClock::now());
+  schedule_.begin(RunClock::now());
   if (!std::filesystem::exists(state_path_)) return std::nullopt;
   try {
     return read_checkpoint(state_path_, hash_of(factor));
@@ -78,8 +77,9 @@ bool TrialFolder::due() const {
 }
 
 void TrialFolder::save(double factor, const RunCheckpoint& state) {
+  const double began = RunClock::now();
   write_checkpoint(state_path_, hash_of(factor), state);
-  schedule_.saved(RunClock::now());
+  schedule_.saved(began, RunClock::now());
 }
 
 void TrialFolder::add(const FactorTrial& trial) {

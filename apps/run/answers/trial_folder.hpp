@@ -46,7 +46,6 @@ class TrialFolder {
 
   std::shared_ptr<const FolderClaim> claim_;
   std::uint64_t scene_;
-  std::optional<double> interval_;
   std::filesystem::path trials_path_, state_path_;
   std::vector<FactorTrial> trials_;
   CheckpointSchedule schedule_;

@@ -4,7 +4,6 @@
 
 #include "apps/run/answers/factor_analysis.hpp"
 #include "solver/paths/load_path.hpp"
-#include "solver/state/agreement.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 
@@ -20,20 +19,20 @@ TrialFactors first_factors(const SceneAnalysis& analysis) {
 }
 
 std::optional<BuiltSimulation> built_under(const TrialFactors& factors, const LoadedScene& scene, int threads,
-                                           const RunRanks* ranks) {
+                                           const RunGroup& group) {
   Diagnostics ignored;  // the same as without a factor
-  return build_simulation(scene, threads, ignored, nullptr, factors, ranks);
+  return build_simulation(scene, threads, ignored, nullptr, factors, group.ranks());
 }
 
 }  // namespace
 
-TrialRun::TrialRun(const LoadedScene& scene, double factor, int threads, const RunRanks* ranks)
+TrialRun::TrialRun(const LoadedScene& scene, double factor, int threads, const RunGroup& group)
     : scene_(scene),
       threads_(threads),
-      ranks_(ranks),
+      group_(group),
       factor_(factor),
       end_time_(scene.scene.analysis.end_time),
-      built_(built_under(first_factors(scene.scene.analysis), scene, threads, ranks)) {
+      built_(built_under(first_factors(scene.scene.analysis), scene, threads, group)) {
   if (built_)
     built_->simulation.gather_results();
   else
@@ -58,7 +57,7 @@ bool TrialRun::has_yielded() const {
 bool TrialRun::leave_rest() {
   at_factor_ = true;
   std::optional<BuiltSimulation> next =
-      built_under(trial_factors(scene_.scene.analysis, factor_), scene_, threads_, ranks_);
+      built_under(trial_factors(scene_.scene.analysis, factor_), scene_, threads_, group_);
   if (!next) {
     result_ = FactorTrial{factor_, TrialOutcome::unknown, iterations()};
     return false;
@@ -80,7 +79,7 @@ bool TrialRun::iterate() {
   }
   if (!at_factor_ && status == StaticStatus::equilibrium) return leave_rest();
   result_ = FactorTrial{factor_, outcome_of(status, simulation), simulation.steps()};
-  if (any_of_run(simulation.system(), has_yielded()) && result_->outcome == TrialOutcome::stands)
+  if (group_.any(has_yielded()) && result_->outcome == TrialOutcome::stands)
     result_->outcome = TrialOutcome::moves;
   if (result_->outcome == TrialOutcome::unknown) reason_ = describe_unconverged(simulation, changes_);
   return false;
@@ -97,7 +96,7 @@ RunCheckpoint TrialRun::state() const {
 
 void TrialRun::restore(const RunCheckpoint& state) {
   if (!state.stages.empty() && !at_factor_) {
-    built_ = built_under(trial_factors(scene_.scene.analysis, factor_), scene_, threads_, ranks_);
+    built_ = built_under(trial_factors(scene_.scene.analysis, factor_), scene_, threads_, group_);
     at_factor_ = true;
   }
   built_->simulation.restore(state.simulation);
@@ -105,9 +104,9 @@ void TrialRun::restore(const RunCheckpoint& state) {
   changes_ = state.changes;
 }
 
-void start_at_rest(const LoadedScene& scene, int threads, const RunRanks* ranks, Simulation& under_factor) {
+void start_at_rest(const LoadedScene& scene, int threads, const RunGroup& group, Simulation& under_factor) {
   std::optional<BuiltSimulation> rest =
-      built_under(first_factors(scene.scene.analysis), scene, threads, ranks);
+      built_under(first_factors(scene.scene.analysis), scene, threads, group);
   if (!rest) return;
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing)

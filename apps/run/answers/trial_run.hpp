@@ -10,6 +10,7 @@
 #include "apps/results/folder/contact_changes.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/run/answers/factor_search.hpp"
+#include "apps/run/run_group.hpp"
 #include "apps/scene/assemble/build_simulation.hpp"
 
 namespace ashlar {
@@ -17,9 +18,8 @@ namespace ashlar {
 class TrialRun {
  public:
   /// Begins with the blocks as placed. If they cannot be built the trial has ended, inconclusive.
-  /// @param scene must outlive this. @param ranks that share the trial, all members but plain values are collective then;
-  /// null: none
-  TrialRun(const LoadedScene& scene, double factor, int threads, const RunRanks* ranks = nullptr);
+  /// @param scene must outlive this. @param group shares the trial: all members but plain values are collective
+  TrialRun(const LoadedScene& scene, double factor, int threads, const RunGroup& group = {});
 
   /// Takes an iteration of a trial that has not ended. @return true if it goes on
   bool iterate();
@@ -28,11 +28,11 @@ class TrialRun {
   [[nodiscard]] int iterations() const { return built_ ? built_->simulation.steps() : 0; }
   /// Empty until the trial has ended.
   [[nodiscard]] const std::optional<FactorTrial>& result() const { return result_; }
-  /// Reason for an inconclusive result, on the first rank; empty otherwise.
+  /// Reason for an inconclusive result, on the first process; empty otherwise.
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
   /// State between two iterations, for restore() of a trial of the same factor: simulation and changes of contacts. Of
-  /// several ranks the first one has it, and all restore it.
+  /// several processes the first one has it, and all restore it.
   [[nodiscard]] RunCheckpoint state() const;
   void restore(const RunCheckpoint& state);
 
@@ -44,7 +44,7 @@ class TrialRun {
 
   const LoadedScene& scene_;
   int threads_;
-  const RunRanks* ranks_;
+  RunGroup group_;
   double factor_;
   double end_time_;         ///< s, of the loads
   bool at_factor_ = false;  ///< true: under the factor, false: under the first loads
@@ -54,7 +54,7 @@ class TrialRun {
   std::string reason_;
 };
 
-/// Starts a simulation of the scene under the factor from the state at rest of the first loads, if they have one.
-void start_at_rest(const LoadedScene& scene, int threads, const RunRanks* ranks, Simulation& under_factor);
+/// Starts a simulation of the scene under the factor from the state at rest of the first loads, if they have one. Collective.
+void start_at_rest(const LoadedScene& scene, int threads, const RunGroup& group, Simulation& under_factor);
 
 }  // namespace ashlar

@@ -71,6 +71,25 @@ TEST(AccuracyRun, AStaticRunWithoutAccuracyTellsTheErrorOfItsMeasures) {
   EXPECT_TRUE(asked.measure_errors().empty()) << "known from the choice";
 }
 
+TEST(AccuracyRun, ErrorsThatAreAskedForAreThoseOfTheSummaryOfASmallRun) {
+  for (const char* analysis : {"type = \"static\"", "type = \"static\", accuracy = 1e-2"}) {
+    ashlar::Run run(loaded(pier(analysis, "order = 1")));
+    while (run.step()) {
+    }
+    EXPECT_EQ(nlohmann::json::parse(run.errors()), error_of(run)) << analysis;
+  }
+  ashlar::Run run(loaded(
+      pier("type = \"static\"",
+           "order = 1\nload = [{ plane = { point = [0, 0, 2], normal = [0, 0, 1] }, force = [0, 0, -1] }]")));
+  EXPECT_EQ(run.errors(), "null") << "it is no equilibrium";
+  while (run.step()) {
+  }
+  EXPECT_EQ(run.summary_order_errors().blocks, 1);
+  EXPECT_EQ(error_of(run)["blocks_estimated"], 1);
+  run.set_load_factor("pier", 0, 1.0);
+  EXPECT_TRUE(run.summary_order_errors().errors.empty()) << "it goes on";
+}
+
 TEST(AccuracyRun, AStaticRunHasTheChosenOrder) {
   ashlar::Run run(loaded(pier("type = \"static\", accuracy = 1e-3")));
   while (run.step()) {

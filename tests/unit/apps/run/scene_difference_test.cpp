@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"
 

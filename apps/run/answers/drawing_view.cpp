@@ -1,4 +1,4 @@
-#include "apps/run/drawing_view.hpp"
+#include "apps/run/answers/drawing_view.hpp"
 
 #include <fmt/format.h>
 
