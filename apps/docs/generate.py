@@ -50,7 +50,7 @@ def with_help(program, text):
 
 def scene_with_every_table():
     """The scene from which `ashlar schema` is made."""
-    source = (PROJECT / "apps" / "scene" / "build" / "scene_schema.cpp").read_text(encoding="utf-8")
+    source = (PROJECT / "apps" / "scene" / "assemble" / "scene_schema.cpp").read_text(encoding="utf-8")
     return "".join(re.findall(r'_tables = R"\((.*?)\)";', source, flags=re.DOTALL))
 
 

@@ -13,7 +13,7 @@
 #include "apps/results/text/json_text.hpp"
 #include "apps/run/run_setup.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
-#include "apps/scene/check/base_motion.hpp"
+#include "apps/scene/check/warnings/base_motion.hpp"
 
 namespace ashlar {
 namespace {

@@ -28,16 +28,29 @@ struct PairMessage {
   PatchStart start;
 };
 
-ContactBody body_of(const BlockSystem& system, const RunState& state, int block) {
-  return {&system.blocks()[at(block)], &state.states[at(block)], nullptr};
-}
-
 /// Rank of the other block of a pair that this one owns; -1: also this one.
 int other_rank(const BlockSystem& system, const PairKey& blocks) {
   if (system.blocks()[at(blocks[0])].fixed() || system.blocks()[at(blocks[1])].fixed()) return -1;
   const BlockShare& share = share_of(system);
   const int rank = share.owner(share.owns(blocks[0]) ? blocks[1] : blocks[0]);
   return rank == share.ranks().own() ? -1 : rank;
+}
+
+/// Recipe of a pair whose contacts both ranks have. @param cached of this rank; null: none
+PairRecipe kept_again(const BlockSystem& system, const RunState& state, const PairMessage& message,
+                      const std::shared_ptr<const ContactCache>& cached, const JointLaw& law) {
+  const auto [a, b] = message.blocks;
+  const auto any_motion = [](const Eigen::MatrixX3d&) { return 0.0; };
+  const std::optional<KeptContacts> kept =
+      cached == nullptr
+          ? std::nullopt
+          : kept_contacts(cached, present_body(system, state, a), present_body(system, state, b), law,
+                          {std::numeric_limits<double>::infinity(), 0.0}, {any_motion, any_motion});
+  if (!kept) throw std::logic_error("contacts of blocks of two ranks are not the same on both");
+  PairRecipe recipe = kept_recipe(state, message.blocks, *kept, law);
+  // Only the owner of a pair has its account.
+  recipe.start = message.start;
+  return recipe;
 }
 
 }  // namespace
@@ -60,28 +73,15 @@ std::vector<PairRecipe> BorderPairs::exchange(const BlockSystem& system, const R
     }
   };
   std::vector<PairRecipe> received;
-  const auto kept_again = [&](const PairMessage& message) {
-    const PairKey& blocks = message.blocks;
-    const auto known = received_.find(blocks);
-    const auto any_motion = [](const Eigen::MatrixX3d&) { return 0.0; };
-    const std::optional<KeptContacts> kept =
-        known == received_.end()
-            ? std::nullopt
-            : kept_contacts(known->second, body_of(system, state, blocks[0]),
-                            body_of(system, state, blocks[1]), law_of(blocks),
-                            {std::numeric_limits<double>::infinity(), 0.0}, {any_motion, any_motion});
-    if (!kept) throw std::logic_error("contacts of blocks of two ranks are not the same on both");
-    PairRecipe recipe = kept_recipe(state, blocks, *kept, law_of(blocks));
-    // Only the owner of a pair has its account.
-    recipe.start = message.start;
-    return recipe;
-  };
   const auto read = [&](ByteReader& reader, int) {
     while (!reader.at_end()) {
       PairMessage message;
       reader(message);
       if (message.kept) {
-        received.push_back(kept_again(message));
+        const auto known = received_.find(message.blocks);
+        received.push_back(kept_again(system, state, message,
+                                      known == received_.end() ? nullptr : known->second,
+                                      law_of(message.blocks)));
         continue;
       }
       const BlockModel& a = system.blocks()[at(message.blocks[0])];

@@ -22,7 +22,7 @@ class SharedStep final : public StepExchange {
   [[nodiscard]] bool owns(int block) const override { return share().owns(block); }
   [[nodiscard]] bool knows(int block) const override { return owns(block) || share().is_ghost(block); }
   [[nodiscard]] bool first() const override { return share().ranks().own() == 0; }
-  [[nodiscard]] const PlacedBlocks* placed() const override { return &placed_; }
+  [[nodiscard]] const PlacesOfRun* placed() const override { return &placed_; }
   [[nodiscard]] std::vector<Bytes> gather(const Bytes& given) const override {
     return share().ranks().gather(given);
   }
@@ -55,7 +55,7 @@ class SharedStep final : public StepExchange {
 
  private:
   SharedBlocks& shared_;
-  PlacedBlocks placed_;
+  PlacesOfRun placed_;
 };
 
 /// Blocks that ranks share; null: the run has one process.

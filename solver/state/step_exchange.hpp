@@ -38,7 +38,7 @@ struct SimulationSnapshot;  // step/accept/snapshot.hpp
 struct StepCaches;          // step/step_caches.hpp
 
 /// The placed, undeformed blocks of a run of several processes.
-struct PlacedBlocks {
+struct PlacesOfRun {
   const std::vector<PlacedVolume>& volumes;  ///< by block
   const Eigen::Matrix3d& axes;               ///< along the largest face of all blocks
 };
@@ -58,7 +58,7 @@ class StepExchange {
   /// True on the one process that counts what all do together.
   [[nodiscard]] virtual bool first() const = 0;
   /// Null: those of the system.
-  [[nodiscard]] virtual const PlacedBlocks* placed() const = 0;
+  [[nodiscard]] virtual const PlacesOfRun* placed() const = 0;
   /// @}
 
   /// @name Decisions

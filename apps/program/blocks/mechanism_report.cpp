@@ -8,8 +8,8 @@
 #include "apps/run/run_setup.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
+#include "apps/scene/json/analysis_json.hpp"
 #include "apps/scene/model/preparation.hpp"
-#include "apps/scene/read/analysis_json.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {

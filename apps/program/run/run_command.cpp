@@ -21,7 +21,7 @@
 #include "apps/run/run_progress.hpp"
 #include "apps/run/run_setup.hpp"
 #include "apps/run/stored_run.hpp"
-#include "apps/scene/check/base_motion.hpp"
+#include "apps/scene/check/warnings/base_motion.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {
@@ -109,6 +109,7 @@ void refuse_for_ranks(const RunOptions& options, Diagnostics& diagnostics) {
   };
   if (options.scene == "-") refuse("SCENE", "standard input (-) cannot be read");
   if (options.explained_pair) refuse("--explain-contacts", "contacts cannot be explained");
+  if (options.all_errors) refuse("--all-errors", "errors of orders are not estimated");
 }
 
 /// Reads, checks and builds. Faults go to the diagnostics. Collective: on several ranks none builds what another could not
@@ -132,7 +133,8 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
   std::optional<BuiltSimulation> built =
       build_first_stage(stage_scene(scene, 0), threads, diagnostics, &preparation, ranks);
   if (!built) return prepared;
-  const Run& run = prepared.run.emplace(scene, std::move(*built), RunManner{threads, false, began, ranks});
+  const Run& run = prepared.run.emplace(scene, std::move(*built),
+                                        RunManner{threads, false, began, ranks, options.all_errors});
   if (options.explained_pair)
     prepared.explained = pair_by_names(*options.explained_pair, run.simulation(), diagnostics);
   prepared.resumes = options.resume && !holds_open_search(folder, run.whole());

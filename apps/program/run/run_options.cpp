@@ -25,7 +25,8 @@ void declare_run_command(CLI::App& program, CommandContext& context) {
                     "Replace results in the result folder; --resume goes on with them instead");
   command
       ->add_option("--checkpoint", options->checkpoint,
-                   "Seconds between checkpoints (default: 1, 2, 4, ... to 60; 0: after every step)")
+                   "Seconds between checkpoints (default: 1, 2, 4, ... to 60, in at most 3 % of the run; 0: "
+                   "after every step)")
       ->type_name("SECONDS")
       ->transform(real_number_option({.low = 0.0, .words = "a number of seconds >= 0"}).description(">= 0"));
   command->add_option("-t,--threads", options->threads, "Number of threads")
@@ -33,6 +34,8 @@ void declare_run_command(CLI::App& program, CommandContext& context) {
       ->transform(whole_number_option(1));
   command->add_flag("--quiet", options->quiet, "No progress on stderr");
   command->add_flag("--view", options->view, "Write view.html into the result folder at the end");
+  command->add_flag("--all-errors", options->all_errors,
+                    "Estimate the errors of the orders of all blocks (default: in at most 5 % of the run)");
   command
       ->add_option("--explain-contacts", options->explained_pair,
                    "Print the contacts of two blocks at the end, and why others were left out")

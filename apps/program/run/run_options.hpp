@@ -19,10 +19,12 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< "key.path=value" each, in order
   bool resume = false;                 ///< continue from the checkpoint in the result folder
   bool force = false;                  ///< replace existing results; not with resume
-  std::optional<double> checkpoint;    ///< s between checkpoints, >= 0; empty: growing to a minute
-  int threads = 0;                     ///< >= 1; 0: not given
-  bool quiet = false;                  ///< no progress output on stderr
-  bool view = false;                   ///< write view.html at the end
+  std::optional<double>
+      checkpoint;      ///< s between checkpoints, >= 0; empty: growing to a minute, at most 3 % of the time
+  int threads = 0;     ///< >= 1; 0: not given
+  bool quiet = false;  ///< no progress output on stderr
+  bool view = false;   ///< write view.html at the end
+  bool all_errors = false;                    ///< errors of the orders of all blocks in the summary
   std::optional<std::string> explained_pair;  ///< "a,b": blocks whose contacts are explained at the end
 };
 

@@ -25,7 +25,7 @@
 #include "apps/run/answers/trial_folder.hpp"
 #include "apps/run/stored_run.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
-#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/input_file.hpp"
 

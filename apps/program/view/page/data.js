@@ -180,8 +180,9 @@ async function loadData() {
   data.spans = spansOf(data.blockOfPoint);
   data.history = decodeHistory(scene.history, history);
   addRunTime(data.history);
+  addPush(data.history, data.summary);
   data.blocks = blocksOf(data.cells, scene.blocks, scene.fixed);
-  data.isStatic = ["static", "factor-of-safety", "capacity", "thrust"].includes(scene.analysis);
+  data.isStatic = ["static", "factor-of-safety", "capacity", "thrust", "pushover"].includes(scene.analysis);
   const lines = element("frames").textContent.trim().split("\n");
   const bytes = await Promise.all(lines.map(inflated));
   data.frames = scene.frames.map((head, k) => new Frame(head, bytes[k]));

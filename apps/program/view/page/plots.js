@@ -5,7 +5,7 @@ const CURVE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#
   "#8a8a00", "#a02c2c", "#5c5c5c"];
 
 /// What the run says of a column: {unit, measure, group, meaning}; results of earlier versions have no such file.
-const columnOf = (name) => (name === RUN_TIME ? {unit: "s"} : (data.history.about || {})[name] || {});
+const columnOf = (name) => OWN_COLUMNS[name] || (data.history.about || {})[name] || {};
 const unitOfColumn = (name) => {
   const {unit} = columnOf(name);
   return !unit || unit === "1" ? "" : unit.replace("^2", "²");
@@ -50,6 +50,21 @@ function addRunTime({columns, values}) {
   });
   columns.splice(columns.indexOf("time") + 1, 0, RUN_TIME);
 }
+
+/// The curve of a pushover, by step: columns that the page adds from the states of the summary.
+const PUSH_DISPLACEMENT = "displacement of the control";
+const PUSH_MULTIPLIER = "multiplier";
+function addPush({columns, values}, summary) {
+  const states = ((summary && summary.states) || []).filter(({multiplier}) => multiplier !== undefined);
+  if (states.length === 0 || !columns.includes("step")) return;
+  const byStep = new Map(states.map((state) => [state.step, state]));
+  const column = (key) => Array.from(values.step, (step) => (byStep.has(step) ? byStep.get(step)[key] : NaN));
+  values[PUSH_DISPLACEMENT] = column("displacement");
+  values[PUSH_MULTIPLIER] = column("multiplier");
+  columns.splice(columns.indexOf("step") + 1, 0, PUSH_DISPLACEMENT, PUSH_MULTIPLIER);
+}
+
+const OWN_COLUMNS = {[RUN_TIME]: {unit: "s"}, [PUSH_DISPLACEMENT]: {unit: "m"}, [PUSH_MULTIPLIER]: {unit: "1"}};
 
 /// The column that curves are drawn against unless the user chooses another one: static analyses have no time.
 function usualColumn() {
@@ -167,6 +182,7 @@ function choosePlots() {
   const first = names[0];
   const second = first !== "energies" && "energies" in plotGroups.all ? "energies" : names[1] || first;
   Object.assign(current, {x1: usualColumn(), x2: usualColumn(), y1: first, y2: second});
+  if (data.history.columns.includes(PUSH_MULTIPLIER)) Object.assign(current, {x1: PUSH_DISPLACEMENT, y1: PUSH_MULTIPLIER});
 }
 
 function buildPlots() {

@@ -59,18 +59,33 @@ function answerRows(summary) {
 }
 
 const ANSWERED = ["scene", "title", "status", "message", "moving", "displaced", "largest_displacement", "largest_compression",
-  "largest_tension", "largest_strain", "broken", "deepest", "factor_of_safety", "load_factor", "states", "verdict", "peaks"];
+  "largest_tension", "largest_strain", "broken", "deepest", "factor_of_safety", "load_factor", "states", "verdict", "peaks",
+  "pushover"];
 
 const percentText = (share) => short(100 * share) + " %";
 
 /// `error` of the summary: of the orders of blocks or of all choices, and of each measure.
-function errorRows({accuracy, estimate, by = {}, measures = {}, advice}) {
+function errorRows({accuracy, estimate, by = {}, measures = {}, advice, blocks_estimated: estimated, blocks_in_all: all}) {
   const rows = [["estimated error, relative"]];
   if (accuracy !== undefined) rows.push(["asked for", percentText(accuracy)]);
   if (estimate !== undefined) rows.push([accuracy !== undefined ? "largest" : "deformation of blocks", percentText(estimate)]);
+  if (estimated < all) rows.push(["estimated blocks", estimated + " of " + all]);
   if (accuracy !== undefined) for (const [part, share] of Object.entries(by)) rows.push(["by " + words(part), percentText(share)]);
   for (const [name, share] of Object.entries(measures)) rows.push(["measure " + name, percentText(share)]);
   if (advice) rows.push(["advice", advice]);
+  return rows;
+}
+
+/// `kinematic` of the summary: capacities, then each comparison with the demand.
+function kinematicRows({demand, ...numbers}) {
+  const rows = [["kinematic check"]];
+  const add = (name, value) => {
+    if (value !== null && typeof value === "object")
+      for (const [part, inner] of Object.entries(value)) add(name + ", " + words(part), inner);
+    else if (value !== null && value !== undefined) rows.push([name, valueText(value)]);
+  };
+  for (const [name, value] of Object.entries(numbers)) add(words(name), value);
+  for (const [name, value] of Object.entries(demand || {})) add(words(name), value);
   return rows;
 }
 
@@ -82,6 +97,8 @@ function counterRows(summary) {
     if (ANSWERED.includes(key)) continue;
     if (key === "error") {
       groups.push(...errorRows(value));
+    } else if (key === "kinematic") {
+      groups.push(...kinematicRows(value));
     } else if (key === "automatic") {
       if (value.length > 0) groups.push(["chosen automatically"]);
       for (const choice of value) groups.push([choice.key, short(choice.value) + " " + choice.unit]);
