@@ -18,9 +18,8 @@ namespace {
 /// Faults of one law.
 class FractureFaults {
  public:
-  FractureFaults(const Scene& scene, const SceneJointLaw& law, const std::string& path,
-                 Diagnostics& diagnostics)
-      : scene_(scene), law_(law), path_(path), diagnostics_(diagnostics) {}
+  FractureFaults(const Scene& scene, const std::string& path, Diagnostics& diagnostics)
+      : scene_(scene), path_(path), diagnostics_(diagnostics) {}
 
   void check_strength(const char* part, double energy, const char* key, double strength) {
     if (energy > 0.0 && !(strength > 0.0))
@@ -73,7 +72,6 @@ class FractureFaults {
   }
 
   const Scene& scene_;
-  const SceneJointLaw& law_;
   std::string path_;
   Diagnostics& diagnostics_;
 };
@@ -94,7 +92,7 @@ constexpr std::array fracture_keys = {"fracture_energy",   "tied",
 
 void check_fracture(const Scene& scene, const SceneJointLaw& law, const std::string& path,
                     Diagnostics& diagnostics) {
-  FractureFaults faults(scene, law, path, diagnostics);
+  FractureFaults faults(scene, path, diagnostics);
   if (law.tie || law.fracture_energy) faults.check_springs();
   if (!law.fracture_energy) return;
   const auto& [tension, shear] = *law.fracture_energy;
