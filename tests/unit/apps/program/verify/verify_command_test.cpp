@@ -111,9 +111,11 @@ TEST(VerifyCommand, UnknownCasesAreRefusedWithTheNearestName) {
   const Answer answer = verify({.cases = {"free-fal"}});
   EXPECT_EQ(answer.status, exit_status::bad_input);
   EXPECT_NE(answer.err.find("did you mean free-fall?"), std::string::npos);
-  EXPECT_NE(verify({.cases = {"bar"}})
-                .err.find("did you mean bar-impact or bonded-bar or torsion-bar or spinning-bar or effectivity-bar?"),
-            std::string::npos);
+  EXPECT_NE(
+      verify({.cases = {"bar"}})
+          .err.find(
+              "did you mean bar-impact or bonded-bar or torsion-bar or spinning-bar or effectivity-bar?"),
+      std::string::npos);
 }
 
 /// A folder with a cube on a floor, 8 m^3, and one case.
