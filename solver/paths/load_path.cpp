@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -33,6 +34,17 @@ std::vector<JointSpring> springs_of(const RigidModel& model) {
 }
 
 }  // namespace
+
+std::vector<double> displacements_of_rest(const BlockSystem& system, const RigidModel& model) {
+  std::vector<double> allowed;
+  for (const RigidBody& body : model.bodies) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int block : body.blocks)
+      least = std::min(least, allowed_displacement_share * block_size(system.blocks()[at(block)]));
+    allowed.push_back(least);
+  }
+  return allowed;
+}
 
 LoadPath::LoadPath(RigidModel model, const std::function<bool(int, int)>& reduced,
                    std::vector<double> allowed)

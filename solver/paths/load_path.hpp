@@ -20,11 +20,15 @@
 #include "solver/limit/limit_trial.hpp"
 #include "solver/limit/rigid_model.hpp"
 #include "solver/paths/spring_step.hpp"
+#include "solver/state/block_system.hpp"
 
 namespace ashlar {
 
 /// Allowed displacement over the size of a block (block_size()), if none is given.
 inline constexpr double allowed_displacement_share = 0.01;
+
+/// Displacements from which on blocks are not at rest where they are placed, by body, m; infinite: a body without blocks.
+[[nodiscard]] std::vector<double> displacements_of_rest(const BlockSystem& system, const RigidModel& model);
 
 /// Forces of joints, and the way from the start of the path.
 struct PathState {

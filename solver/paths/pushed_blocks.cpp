@@ -28,16 +28,6 @@ double sum_of_norms(const std::vector<BodyVelocity>& loads) {
   return sum;
 }
 
-/// Replaces the multiplied loads by forces in proportion to mass. @param acceleration m/s^2
-void push_masses(RigidModel& model, const Vector3& acceleration) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const RigidBody& body = model.bodies[b];
-    BodyVelocity wrench = BodyVelocity::Zero();
-    if (!body.blocks.empty()) wrench.head<3>() = body.mass * acceleration;
-    model.multiplied[b] = body.motion.transpose() * wrench / model.units.force();
-  }
-}
-
 /// Displacement of a body's centre by a constant twist. @param translation m, of the centre at the start
 /// @param rotation rad
 Vector3 way_along_screw(const Vector3& translation, const Vector3& rotation) {
@@ -88,6 +78,15 @@ Vector3 unit_of(const Vector3& direction) {
 }
 
 }  // namespace
+
+void push_masses(RigidModel& model, const Vector3& acceleration) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const RigidBody& body = model.bodies[b];
+    BodyVelocity wrench = BodyVelocity::Zero();
+    if (!body.blocks.empty()) wrench.head<3>() = body.mass * acceleration;
+    model.multiplied[b] = body.motion.transpose() * wrench / model.units.force();
+  }
+}
 
 PushedBlocks::PushedBlocks(const PlacedScene& scene, const PushoverSearch& search, const PathLengths& lengths)
     : direction_(unit_of(search.direction)),

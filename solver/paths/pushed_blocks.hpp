@@ -76,6 +76,9 @@ class PushedBlocks {
   int programmes_ = 0;
 };
 
+/// Replaces the multiplied loads by forces in proportion to mass. @param acceleration m/s^2
+void push_masses(RigidModel& model, const Vector3& acceleration);
+
 /// Velocity of a place of a block, per unit of the velocity's. Zero of a fixed block. @param place m
 [[nodiscard]] Vector3 velocity_at(const RigidModel& model, const std::vector<BodyVelocity>& velocity,
                                   int block, const Vector3& place);

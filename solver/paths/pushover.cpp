@@ -8,6 +8,7 @@
 #include "geometry/index.hpp"
 #include "mechanics/contact/contact_kinematics.hpp"
 #include "solver/paths/pushed_blocks.hpp"
+#include "solver/paths/pushover_activation.hpp"
 
 namespace ashlar {
 namespace {
@@ -349,6 +350,14 @@ Pushover pushover(const PlacedScene& scene, const PushoverSearch& search) {
   path.left_out_strength = std::any_of(model.points.begin(), model.points.end(), [](const RigidPoint& point) {
     return point.law.cohesion > 0.0 || point.law.tensile_strength > 0.0;
   });
+  if (!path.places.empty() && path.end != PushoverEnd::interrupted) {
+    if (const auto first = pushover_activation(scene, search, path.places.front().multiplier)) {
+      path.activation = first->multiplier;
+      path.at_limit = first->at_limit;
+    } else {
+      path.end = PushoverEnd::interrupted;
+    }
+  }
   return path;
 }
 

@@ -12,6 +12,8 @@
 // order, so that friction does not dilate as steps become short (notes/limit_analysis.md). So each place is an equilibrium
 // of the blocks where they are.
 //
+// Where joints wedge, blocks move earlier: `activation` tells when.
+//
 // For a block of width b and height h the curve is a = tan(t0 - t), t0 = atan(b / h), at the rotation t.
 //
 // Joints have friction only, and any compression: cohesion and tensile strength, which a hinge has lost, are ignored.
@@ -81,6 +83,10 @@ struct PushoverState {
 struct Pushover {
   PushoverEnd end = PushoverEnd::not_determined;
   std::vector<PushoverPlace> places;  ///< in the order of the motion, from the limit state
+  /// Multiplier at which blocks begin to move, the one to be signed (pushover_activation.hpp): that of the first place, or
+  /// less. 0: there is no place, or the search was interrupted
+  double activation = 0.0;
+  bool at_limit = false;       ///< it is that of the first place
   std::optional<double> zero;  ///< m, displacement at which the multiplier is zero; empty: it was not reached
   std::vector<PushedWeight> mechanism;  ///< at the limit state, by block number
   std::vector<PushoverState> states;    ///< some places, the first and the last one among them

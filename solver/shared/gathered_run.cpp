@@ -14,6 +14,12 @@ namespace {
 /// Pairs of all ranks in one exchange: a pair of bricks takes 10 to 20 kB.
 constexpr int records_at_a_time = 512;
 
+/// Null: one rank has all blocks.
+const BlockShare* share_of_run(const Simulation& simulation) {
+  const SharedBlocks* shared = simulation.shared_blocks();
+  return shared == nullptr ? nullptr : shared->share.get();
+}
+
 /// Adds all numbers of a struct.
 template <class Struct>
 void add_all(const Struct& one, Struct& sum) {
@@ -69,8 +75,7 @@ RunTotals totals_here(const Simulation& simulation, const ShownContacts& shown) 
 
 RunTotals totals_of_run(const Simulation& simulation, const ShownContacts& shown) {
   RunTotals here = totals_here(simulation, shown);
-  const SharedBlocks* shared = shared_blocks_of(simulation.system());
-  const BlockShare* share = shared == nullptr ? nullptr : shared->share.get();
+  const BlockShare* share = share_of_run(simulation);
   if (share == nullptr) return here;
   RunTotals sum;
   for (const RunTotals& one : values_of_ranks(share->ranks(), here)) {
@@ -87,8 +92,7 @@ RunTotals totals_of_run(const Simulation& simulation, const ShownContacts& shown
 }
 
 std::vector<BlockState> states_of_run(const Simulation& simulation, const ResultNeeds& needs) {
-  const SharedBlocks* shared = shared_blocks_of(simulation.system());
-  const BlockShare* share = shared == nullptr ? nullptr : shared->share.get();
+  const BlockShare* share = share_of_run(simulation);
   std::vector<BlockState> states = simulation.states();
   if (share == nullptr) return states;
   send_to_first(
@@ -203,8 +207,7 @@ std::vector<RankWork> work_of_ranks(const Simulation& simulation, const ProcessU
     work.broken_area += pair.broken;
     work.bonded_area += pair.bonded;
   }
-  const SharedBlocks* shared = shared_blocks_of(system);
-  const BlockShare* share = shared == nullptr ? nullptr : shared->share.get();
+  const BlockShare* share = share_of_run(simulation);
   if (share == nullptr) {
     work.own = system.count();
     return {work};

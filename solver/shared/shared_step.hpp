@@ -1,4 +1,4 @@
-// What ranks exchange in a step (step_exchange.hpp): a run that several processes share.
+// The exchange of ranks in a step (step_exchange.hpp): a run that several processes share.
 #pragma once
 
 #include <memory>

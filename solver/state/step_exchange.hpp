@@ -1,4 +1,4 @@
-// What the processes that share a run exchange in a step, and decide together. Steps, static analyses, contacts and
+// Exchange and common decisions, in a step, of the processes that share a run. Steps, static analyses, contacts and
 // applications know this interface only. A run of one process has NoExchange, whose functions do nothing;
 // shared/shared_step.hpp is the exchange of several.
 //

@@ -108,18 +108,6 @@ bool is_dry(const RigidModel& model) {
   });
 }
 
-/// Displacements from which on blocks are not at rest where they are placed, by body, m.
-std::vector<double> displacements_of_rest(const BlockSystem& system, const RigidModel& model) {
-  std::vector<double> allowed;
-  for (const RigidBody& body : model.bodies) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const int block : body.blocks)
-      least = std::min(least, allowed_displacement_share * block_size(system.blocks()[at(block)]));
-    allowed.push_back(least);
-  }
-  return allowed;
-}
-
 /// Verdict on an analysis without a result. @param placed blocks at their initial placement
 StaticStatus verdict_of_path(const BlockSystem& system, const RunState& placed, double end_time,
                              RunState& state) {

@@ -25,14 +25,16 @@ std::optional<KinematicCapacity> capacity_of(const Pushover& path, double confid
   }
   if (path.places.empty() || !(first > 0.0) || !(second > 0.0)) return std::nullopt;
   KinematicCapacity capacity;
-  capacity.multiplier = path.places.front().multiplier;
+  capacity.multiplier = path.activation;
   capacity.weight = weight;
   capacity.mass = first * first / (gravity * second);
+  // Blocks that move before the limit have another mechanism: the whole weight takes part, the safe side.
+  if (!path.at_limit) capacity.mass = weight / gravity;
   capacity.mass_fraction = gravity * capacity.mass / weight;
   const double scale = gravity / (capacity.mass_fraction * confidence);
   capacity.acceleration = capacity.multiplier * scale;
   capacity.displacement_ratio = second / first;
-  if (!path.zero) return capacity;
+  if (!path.zero || !path.at_limit) return capacity;
   capacity.zero = *path.zero;
   const double control = ultimate_share * *path.zero;
   capacity.ultimate = control * capacity.displacement_ratio;

@@ -35,7 +35,8 @@ struct KinematicVerdict {
   [[nodiscard]] bool satisfied() const { return capacity >= demand; }
 };
 
-/// What the mechanism is able to do. Without a multiplier of zero there are no displacements.
+/// Capacity of the mechanism. Displacements are known with a multiplier of zero, and if blocks begin to move at the limit
+/// (Pushover::at_limit); otherwise their mechanism is another one, and all of its weight counts as participating.
 struct KinematicCapacity {
   double multiplier = 0.0;                         ///< alpha_0
   double weight = 0.0;                             ///< N, sum of P_i

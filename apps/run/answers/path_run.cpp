@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "apps/run/answers/block_name.hpp"
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "apps/scene/assemble/limit_choices.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -20,15 +18,10 @@ using Json = nlohmann::ordered_json;
 /// Allowed displacement by body, m.
 std::vector<double> allowed_displacements(const Scene& scene, const Simulation& simulation,
                                           const RigidModel& model) {
-  std::vector<double> allowed;
-  for (const RigidBody& body : model.bodies) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const int block : body.blocks)
-      least = std::min(least, allowed_displacement_share *
-                                  block_size(simulation.blocks()[static_cast<std::size_t>(block)]));
-    if (!body.blocks.empty()) least = scene.analysis.allowed_displacement.value_or(least);
-    allowed.push_back(least);
-  }
+  std::vector<double> allowed = displacements_of_rest(simulation.system(), model);
+  for (std::size_t b = 0; b < allowed.size(); ++b)
+    if (!model.bodies[b].blocks.empty())
+      allowed[b] = scene.analysis.allowed_displacement.value_or(allowed[b]);
   return allowed;
 }
 

@@ -117,7 +117,7 @@ Json names_json(const std::vector<int>& blocks, const Simulation& simulation) {
 }
 
 Json first_multiplier(const Pushover& path) {
-  return path.places.empty() ? Json(nullptr) : Json(path.places.front().multiplier);
+  return path.places.empty() ? Json(nullptr) : Json(path.activation);
 }
 
 Json zero_json(const Pushover& path) {
@@ -129,7 +129,7 @@ std::size_t weakest_of(const std::vector<PushedDirection>& directions) {
   std::size_t weakest = 0;
   const auto multiplier = [&](std::size_t k) {
     const Pushover& path = directions[k].path;
-    return path.places.empty() ? std::numeric_limits<double>::infinity() : path.places.front().multiplier;
+    return path.places.empty() ? std::numeric_limits<double>::infinity() : path.activation;
   };
   for (std::size_t k = 1; k < directions.size(); ++k)
     if (multiplier(k) < multiplier(weakest)) weakest = k;
@@ -226,10 +226,12 @@ std::string describe(const PushoverFindings& findings, const Simulation& simulat
   const std::string blocks = moving.size() == 1
                                  ? fmt::format("block {} moves", block_name(simulation, moving.front()))
                                  : fmt::format("{} blocks move", moving.size());
-  text += fmt::format("multiplier {:.5g}, {} ({}{})", path.places.front().multiplier, end_of_push(path),
-                      blocks, path.left_out_strength ? ", by friction alone" : "");
-  // One block has no joint whose dilation would press on another.
-  if (moving.size() > 1) text += "; joints are taken to dilate: blocks that wedge may move earlier";
+  const std::string alone = path.left_out_strength ? ", by friction alone" : "";
+  if (path.at_limit)
+    text += fmt::format("multiplier {:.5g}, {} ({}{})", path.activation, end_of_push(path), blocks, alone);
+  else
+    text += fmt::format("multiplier {:.5g}{}; if joints dilate {:.5g}, {} ({})", path.activation, alone,
+                        path.places.front().multiplier, end_of_push(path), blocks);
   if (!weakest.check) return text;
   const KinematicCapacity& capacity = weakest.check->capacity;
   text += fmt::format("; a0* {:.4g} m/s^2", capacity.acceleration);
@@ -243,6 +245,7 @@ Json pushover_summary(const PushoverFindings& findings, const Simulation& simula
   const Pushover& path = weakest.path;
   Json json = {{"direction", vector_json(weakest.direction)}, {"status", to_string(path.end)}};
   json["multiplier"] = first_multiplier(path);
+  json["at_limit"] = path.at_limit;
   json["displacement"] = zero_json(path);
   json["curve"] = Json::array();
   json["mechanisms"] = Json::array();

@@ -36,7 +36,7 @@ struct ToldBolt {
   int bolt = -1;
   BoltState state;
 };
-/// Those that this process owns.
+/// Bolts that this process owns, with their states.
 [[nodiscard]] std::vector<ToldBolt> own_bolts(const BlockSystem& system, const RunState& state);
 void take_told(std::vector<ToldBolt> told, RunState& state);
 

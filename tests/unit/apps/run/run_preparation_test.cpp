@@ -8,27 +8,12 @@
 
 #include "apps/run/run_setup.hpp"
 #include "unit/apps/results/ended_run.hpp"
+#include "unit/apps/run/cube_on_slope.hpp"
 
 namespace ashlar::run_preparation_test {
 namespace {
 
 using Next = RunPreparation::Next;
-
-/// A cube on a plane inclined by 30 degrees: gravity is turned instead.
-std::string cube_on_slope(const std::string& analysis) {
-  return "analysis = { gravity = [5, 0, -8.660254037844386], " + analysis + R"( }
-contact = { friction_angle = 34.7 }
-material = [{ name = "stone", density = 2000, young_modulus = 1e9, poisson_ratio = 0 }]
-[[block]]
-name = "floor"
-fixed = true
-box = { min = [-9, -9, -1], max = [9, 9, 0] }
-[[block]]
-name = "cube"
-material = "stone"
-box = { min = [-2, -2, 0], max = [2, 2, 1] }
-)";
-}
 
 RunStages stages_of(const std::string& text) {
   const auto scene = std::make_shared<const LoadedScene>(test::loaded_scene(text));
@@ -43,7 +28,7 @@ struct Refusal final : RunObserver {
 };
 
 TEST(RunPreparation, WithoutAnythingToPrepareTheRunBeginsAtOnce) {
-  RunStages stages = stages_of(cube_on_slope("end_time = 0.01, time_step = 1e-3"));
+  RunStages stages = stages_of(test::cube_on_slope("end_time = 0.01, time_step = 1e-3"));
   const RunRecord record({});
   RunEnd end;
   RunPreparation preparation;
@@ -60,7 +45,7 @@ TEST(RunPreparation, WithoutAnythingToPrepareTheRunBeginsAtOnce) {
 
 TEST(RunPreparation, ASearchIsTakenPieceByPiece) {
   RunStages stages = stages_of(
-      cube_on_slope("type = \"factor-of-safety\", method = \"elastic\", safety = { tolerance = 0.5 }"));
+      test::cube_on_slope("type = \"factor-of-safety\", method = \"elastic\", safety = { tolerance = 0.5 }"));
   const RunRecord record({});
   RunEnd end;
   RunPreparation preparation;
@@ -76,7 +61,7 @@ TEST(RunPreparation, ASearchIsTakenPieceByPiece) {
 }
 
 TEST(RunPreparation, AnObserverEndsASearch) {
-  RunStages stages = stages_of(cube_on_slope("type = \"factor-of-safety\", method = \"limit\""));
+  RunStages stages = stages_of(test::cube_on_slope("type = \"factor-of-safety\", method = \"limit\""));
   RunRecord record({});
   record.add(std::make_shared<Refusal>());
   RunEnd end;
@@ -91,7 +76,7 @@ TEST(RunPreparation, AChoiceThatIsEndedBeginsAnew) {
   const RunRecord record({});
   RunRecord refusing({});
   refusing.add(std::make_shared<Refusal>());
-  RunStages stages = stages_of(cube_on_slope("type = \"static\", accuracy = 0.1"));
+  RunStages stages = stages_of(test::cube_on_slope("type = \"static\", accuracy = 0.1"));
   RunEnd end;
   RunPreparation preparation;
   preparation.advance(stages, refusing, end);
@@ -105,7 +90,7 @@ TEST(RunPreparation, AChoiceThatIsEndedBeginsAnew) {
 }
 
 TEST(RunPreparation, ACheckpointReplacesTheChoice) {
-  RunStages stages = stages_of(cube_on_slope("type = \"static\", accuracy = 0.1"));
+  RunStages stages = stages_of(test::cube_on_slope("type = \"static\", accuracy = 0.1"));
   RunCheckpoint checkpoint;
   checkpoint.accuracy.rounds = 7;
   RunPreparation preparation;

@@ -15,6 +15,7 @@
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/tables/history_table.hpp"
 #include "support/temporary_folder.hpp"
+#include "unit/apps/run/cube_on_slope.hpp"
 
 namespace ashlar::run_test {
 namespace {
@@ -170,26 +171,10 @@ TEST(Run, WritesAndRecordsTheSameHistory) {
   EXPECT_FALSE(std::filesystem::exists(folder / "third"));
 }
 
-/// A cube on a plane inclined by 30 degrees: gravity is turned instead. tan(phi) = 1.2 tan(30).
-std::string cube_on_slope(const std::string& analysis) {
-  return "analysis = { gravity = [5, 0, -8.660254037844386], " + analysis + R"( }
-contact = { friction_angle = 34.71500395421209 }
-material = [{ name = "stone", density = 2000, young_modulus = 1e9, poisson_ratio = 0 }]
-[[block]]
-name = "floor"
-fixed = true
-box = { min = [-9, -9, -1], max = [9, 9, 0] }
-[[block]]
-name = "cube"
-material = "stone"
-box = { min = [-2, -2, 0], max = [2, 2, 1] }
-)";
-}
-
 TEST(Run, ASearchForAFactorEndsWithIt) {
   for (const char* method : {"limit", "elastic"}) {
     ashlar::Run run(
-        loaded(cube_on_slope(std::string("type = \"factor-of-safety\", method = \"") + method + '"')));
+        loaded(test::cube_on_slope(std::string("type = \"factor-of-safety\", method = \"") + method + '"')));
     EXPECT_TRUE(run.rows().empty()) << "its motion is shown once the factor is known";
     EXPECT_THROW(run.set_load_factor("cube", 0, 2.0), std::logic_error);
     while (run.step()) {
@@ -208,7 +193,7 @@ TEST(Run, ASearchForAFactorEndsWithIt) {
 }
 
 TEST(Run, ASearchIsStepped) {
-  ashlar::Run run(loaded(cube_on_slope("type = \"factor-of-safety\", method = \"elastic\"")));
+  ashlar::Run run(loaded(test::cube_on_slope("type = \"factor-of-safety\", method = \"elastic\"")));
   // Limit analysis first, then iterations of trials: none of them is a step of the run.
   for (int k = 0; k < 3; ++k) EXPECT_TRUE(run.step());
   EXPECT_TRUE(run.answer().shows_states() || !run.answer().limits);

@@ -22,6 +22,8 @@ Pushover two_blocks() {
   path.zero = 0.5;
   for (int k = 0; k <= 10; ++k) path.places.push_back({0.05 * k, 0.2 * (1.0 - 0.1 * k), {0, 1}});
   path.mechanism = {{0, 3000.0, 1.2}, {1, 6000.0, 0.6}};
+  path.activation = 0.2;
+  path.at_limit = true;
   return path;
 }
 
@@ -50,6 +52,22 @@ TEST(KinematicCheck, HasTheMassThatTakesPart) {
               2.0 * std::numbers::pi * std::sqrt(*capacity.secant / *capacity.secant_acceleration), 1e-12);
   EXPECT_FALSE(check->demand);
   EXPECT_EQ(verdict_of(*check), "no demand");
+}
+
+// Blocks move before joints would dilate: a smaller multiplier, all mass, and no displacements.
+TEST(KinematicCheck, OfBlocksThatMoveBeforeTheLimitIsOnTheSafeSide) {
+  Pushover path = two_blocks();
+  path.activation = 0.15;
+  path.at_limit = false;
+  ScenePushover asked;
+  asked.confidence_factor = 1.2;
+  const auto check = kinematic_check(path, asked, constant(1.0), g);
+  ASSERT_TRUE(check);
+  EXPECT_EQ(check->capacity.mass_fraction, 1.0);
+  EXPECT_NEAR(check->capacity.acceleration, 0.15 * g / 1.2, 1e-12);
+  EXPECT_FALSE(check->capacity.ultimate || check->capacity.secant_period || check->capacity.zero);
+  ASSERT_TRUE(check->demand);
+  EXPECT_TRUE(check->demand->linear && !check->demand->nonlinear);
 }
 
 TEST(KinematicCheck, ComparesWithADemandOnTheGroundAndAbove) {

@@ -73,7 +73,7 @@ TEST(FormulationReader, TheWordIsWrittenAsItWasGiven) {
   for (const std::string word : {"total", "incremental", "paper"}) {
     const nlohmann::json json = to_json(read({"analysis.formulation=" + word}));
     EXPECT_EQ(json["analysis"]["formulation"], word);
-    // What is written reads as the same scene.
+    // The written scene reads as the same one.
     const auto of_contact = [&](const char* key) {
       return std::string("contact.") + key + "=" + json["contact"][key].get<std::string>();
     };
