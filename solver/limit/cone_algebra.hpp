@@ -11,6 +11,9 @@ namespace ashlar::cone {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+/// Largest length of a step, relative to the step: one that stays in the cone at any length has this one.
+inline constexpr double longest_step = 1e30;
+
 inline double determinant(const Vector3d& x) {
   const double t = x.tail<2>().norm();
   return (x[0] - t) * (x[0] + t);
@@ -31,23 +34,22 @@ inline Vector3d quotient(const Vector3d& x, const Vector3d& y) {
   return r;
 }
 
-/// Largest a <= 1e30 for which x + a d is in the cone, with x in its interior.
+/// Largest a <= longest_step for which x + a d is in the cone, with x in its interior.
 inline double longest_way(const Vector3d& x, const Vector3d& d) {
-  constexpr double far = 1e30;
   const double a = d[0] * d[0] - d.tail<2>().squaredNorm();
   const double b = x[0] * d[0] - x.tail<2>().dot(d.tail<2>());
   const double c = std::max(determinant(x), 0.0);
-  double way = d[0] < 0.0 ? -x[0] / d[0] : far;
+  double length = d[0] < 0.0 ? -x[0] / d[0] : longest_step;
   const double root = b * b - a * c;
-  if (root < 0.0) return way;
+  if (root < 0.0) return length;
   const double q = -(b + (b >= 0.0 ? std::sqrt(root) : -std::sqrt(root)));
-  for (const double t : {a != 0.0 ? q / a : far, q != 0.0 ? c / q : far})
-    if (t > 0.0) way = std::min(way, t);
-  return way;
+  for (const double t : {a != 0.0 ? q / a : longest_step, q != 0.0 ? c / q : longest_step})
+    if (t > 0.0) length = std::min(length, t);
+  return length;
 }
 
 inline double longest_way(double x, double d) {
-  return d < 0.0 ? -x / d : 1e30;
+  return d < 0.0 ? -x / d : longest_step;
 }
 
 /// W with W z = W^-1 x.

@@ -18,6 +18,12 @@ namespace {
 /// Compliance of points in a step: forces that balance does not determine would make the matrix as stiff as they are
 /// free. Its contribution to the equations of a step vanishes as steps become small.
 constexpr double compliance = 1e-9;
+/// Stiffness of a bar without bounds along its axis, relative to the scales of the programme: the least that can be
+/// inverted. Smaller values overflow, larger ones resist a motion without bounds.
+constexpr double least_cut = 1e-100;
+/// Rounding error of a sum of stiffnesses, relative to the largest one: the least diagonal of the matrix. With smaller
+/// values a body without resistance has no factor, larger ones change the direction of a step.
+constexpr double rounding_of_sum = 1e-15;
 
 double scalar_w2(const PointIterate& i) {
   return i.zc / i.xc;
@@ -26,12 +32,10 @@ double crushing_w2(const PointIterate& i) {
   return i.zm / i.xm;
 }
 
-/// Stiffness along N by the bounds of N. A bar without bounds has the least that can be inverted: the compliance of the
-/// step limits it.
+/// Stiffness along N by the bounds of N. That of a bar without bounds is limited by the compliance of the step.
 double cut_of(const ConeStrength& s, const PointIterate& i) {
-  constexpr double unbounded = 1e-100;
   const double cut = (s.cut_off() ? scalar_w2(i) : 0.0) + (s.crushes() ? crushing_w2(i) : 0.0);
-  return s.friction == 0.0 ? std::max(cut, unbounded) : cut;
+  return s.friction == 0.0 ? std::max(cut, least_cut) : cut;
 }
 
 /// H^-1 without cancellation: H = E' W^-2 E + cut along N, E = diag(mu, 1, 1).
@@ -116,7 +120,7 @@ bool ConeIteration::factorize() {
         std::max({largest, blocks[n].first.diagonal().maxCoeff(), blocks[n].second.diagonal().maxCoeff()});
   }
   // Lower bound by the rounding error of the sum.
-  const double ground = std::max(weight_, 1e-15 * largest);
+  const double ground = std::max(weight_, rounding_of_sum * largest);
   for (std::size_t b = 0; b < velocity_.size(); ++b) matrix.add_to_diagonal(static_cast<int>(b), ground);
   if (program_.factor_.factorize(matrix.matrix()) != FactorStatus::success) return false;
   if (grows_) along_ = solved(question_.grows);
@@ -221,17 +225,18 @@ void ConeIteration::note_step(const ConePair& pair, std::size_t k) {
 }
 
 double ConeIteration::length(double share) const {
-  double way = 1e30;
+  double longest = cone::longest_step;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const ConeStrength& s = strength(k);
     const PointIterate& i = points_[k];
     const PointStep& d = steps_[k];
-    if (s.shear()) way = std::min({way, longest_way(i.x, d.dx), longest_way(i.z, d.dz)});
-    if (s.cut_off()) way = std::min({way, longest_way(i.xc, d.dxc), longest_way(i.zc, d.dzc)});
-    if (s.crushes()) way = std::min({way, longest_way(i.xm, d.dxm), longest_way(i.zm, d.dzm)});
+    if (s.shear()) longest = std::min({longest, longest_way(i.x, d.dx), longest_way(i.z, d.dz)});
+    if (s.cut_off()) longest = std::min({longest, longest_way(i.xc, d.dxc), longest_way(i.zc, d.dzc)});
+    if (s.crushes()) longest = std::min({longest, longest_way(i.xm, d.dxm), longest_way(i.zm, d.dzm)});
   }
-  if (grows_) way = std::min({way, longest_way(slack_, step_slack_), longest_way(slack_dual_, step_dual_)});
-  return std::min(1.0, share * way);
+  if (grows_)
+    longest = std::min({longest, longest_way(slack_, step_slack_), longest_way(slack_dual_, step_dual_)});
+  return std::min(1.0, share * longest);
 }
 
 void ConeIteration::advance(double way) {

@@ -17,14 +17,27 @@ namespace {
 constexpr int most_iterations = 120;
 /// Iterations in a row without progress that end it.
 constexpr int most_stuck_crushing = 20, most_stuck_else = 5;
+/// Largest error of an iterate that made progress, relative to the least one before: larger values go on longer where
+/// rounding errors prevail, smaller ones end slow iterations too early.
+constexpr double progress = 0.9;
+/// Length of a step relative to the one that reaches the boundary of the cones: nearer to 1 is faster, and loses digits.
 constexpr double to_the_boundary = 0.98;
+/// Centring of a step, of the gap: least, and least after a step shorter than this share of the full one, whose end is
+/// near the boundary. More centring needs more iterations, less makes the following steps short.
+constexpr double least_centring = 1e-8, centring_when_short = 0.5, short_step = 0.2;
+/// Share of the full step below which an iteration has stopped: smaller ones change no digits.
+constexpr double least_step = 1e-9;
+/// Distance of the starting forces from the boundary of the cones, of the normal force: smaller values make first steps
+/// short, larger ones begin farther from the solution.
+constexpr double start_inside = 0.1;
 /// For `rest`, relative to the square of the loads: the error of v is its square root.
 constexpr double gap_of_rest = 1e-12;
 constexpr double gap_of_factor = 1e-8;
 constexpr double equations = 1e-9;
 constexpr double loose_equations = 1e-7;  ///< where a gap is allowed
-/// Tolerances of a solved answer if rounding ends the iteration.
-constexpr double loose = 1e-4;
+/// Tolerances of a solved answer if rounding ends the iteration, and its largest gap: larger values call inaccurate
+/// answers solved.
+constexpr double loose = 1e-4, most_gap = 1e-3;
 /// For `factor` and `slow`: balance is enforced by a penalty, F + G'p + a F1 = share v.
 constexpr double balance_share = 1e-9;
 
@@ -62,7 +75,7 @@ ConeAnswer ConeIteration::run() {
       break;
     }
     const double measure = std::max(gap_ / (gap_allowed() * gap_scale_), equations_ / equations_allowed());
-    stuck = measure > 0.9 * before ? stuck + 1 : 0;
+    stuck = measure > progress * before ? stuck + 1 : 0;
     if (!std::isfinite(measure)) break;
     if (measure <= before) keep();
     before = std::min(before, measure);
@@ -72,10 +85,10 @@ ConeAnswer ConeIteration::run() {
     const double ahead = this->length(1.0);
     const double left = std::max(gap_after(ahead), 0.0) / std::max(gap_, std::numeric_limits<double>::min());
     // After a shortened step the iterate is near the boundary: return to the centre first.
-    const bool centres = length < 0.2;
-    direction(std::clamp(std::pow(left, 3), centres ? 0.5 : 1e-8, 1.0), !centres);
+    const bool centres = length < short_step;
+    direction(std::clamp(std::pow(left, 3), centres ? centring_when_short : least_centring, 1.0), !centres);
     length = this->length(to_the_boundary);
-    if (!(length > 1e-9)) break;
+    if (!(length > least_step)) break;
     advance(length);
   }
   take_back();
@@ -121,7 +134,7 @@ void ConeIteration::start() {
     PointIterate& i = points_[k];
     i.p[0] = force;
     if (s.shear()) {
-      i.x = Vector3d(s.friction * force + s.cohesion + 0.1 * force, 0.0, 0.0);
+      i.x = Vector3d(s.friction * force + s.cohesion + start_inside * force, 0.0, 0.0);
       i.z = Vector3d(velocity, 0.0, 0.0);
     }
     if (s.cut_off()) {
@@ -148,7 +161,7 @@ void ConeIteration::start_bounded(const ConeStrength& s, PointIterate& i) const 
            : s.crushes()                ? s.compression - force
            : s.cut_off()                ? force - s.tension
                                         : 0.0;
-  if (joint) i.x[0] = s.friction * i.p[0] + s.cohesion + 0.1 * std::abs(i.p[0]);
+  if (joint) i.x[0] = s.friction * i.p[0] + s.cohesion + start_inside * std::abs(i.p[0]);
   i.xc = s.cut_off() ? s.tension + i.p[0] : 1.0;
   i.xm = s.crushes() ? s.compression - i.p[0] : 1.0;
   i.zc = i.zm = velocity_scale();
@@ -228,7 +241,7 @@ double ConeIteration::velocity_scale() const {
 }
 
 bool ConeIteration::done(double looser) const {
-  return gap_ <= std::min(1e-3, looser * gap_allowed()) * gap_scale_ &&
+  return gap_ <= std::min(most_gap, looser * gap_allowed()) * gap_scale_ &&
          equations_ <= looser * equations_allowed();
 }
 

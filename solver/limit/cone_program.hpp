@@ -86,6 +86,10 @@ struct ConeQuestion {
   double gap = 0.0;
 };
 
+/// Gap of programmes whose motion is needed to 1e-4 of that by the loads, as the error of v is the square root of the gap:
+/// smaller values need more iterations.
+inline constexpr double gap_of_motion = 1e-8;
+
 enum class ConeStatus {
   solved,      ///< to the tolerances, or as accurately as rounding allows
   inaccurate,  ///< neither the gap nor the equations are within their tolerances

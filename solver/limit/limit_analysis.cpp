@@ -11,6 +11,9 @@ namespace {
 
 /// Bodies are in balance if their acceleration relative to that by their loads alone is at most this.
 constexpr double still = 1e-4;
+/// Residual of an answer that decides between rest and motion, at most, relative to the loads: larger values mistake its
+/// error for motion.
+constexpr double deciding_residual = 0.1 * still;
 /// Decay rate of slow slip that still counts as motion, relative to the tolerance; on the safe side.
 constexpr double margin_share = 0.1;
 
@@ -28,7 +31,7 @@ double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocit
 /// Outcome that a programme's answer proves.
 LimitOutcome outcome_of(const ConeAnswer& found, const std::vector<BodyVelocity>& load, std::size_t bodies) {
   const double motion = largest_motion(found.velocity, load, bodies);
-  if (!(found.residual < 0.1 * still)) return LimitOutcome::unknown;
+  if (!(found.residual < deciding_residual)) return LimitOutcome::unknown;
   if (motion <= still) return LimitOutcome::stands;
   return product(found.velocity, found.velocity) > 2.0 * found.gap ? LimitOutcome::moves
                                                                    : LimitOutcome::unknown;

@@ -23,7 +23,7 @@ class LimitSearching {
 
   LimitAnswer run() {
     const double guess = sought_ == Sought::load ? analysis_.most_that_stands(search_.upper) : 0.0;
-    const double first = guess > 0.0 ? guess * (1.0 - 0.3 * search_.tolerance) : 1.0;
+    const double first = guess > 0.0 ? guess * (1.0 - below_estimate * search_.tolerance) : 1.0;
     narrow(answer_.associated, search_, first, guess, associated_stride,
            [&](double factor) { return attempt(factor, false); });
     if (!answer_.interrupted) {

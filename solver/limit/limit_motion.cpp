@@ -17,6 +17,11 @@ constexpr double moves_along = 1e-3;
 constexpr double joint_moves = 0.05;
 /// Relative to the largest load of a moving body: a joint transmits force.
 constexpr double joint_bears = 1e-3;
+/// Cosine of the angle of normals, 2.6 degrees, within which joints are one plane of a mode: with a larger cosine the
+/// joints of a rough plane count as several, with a smaller one the planes of a flat wedge as one.
+constexpr double one_plane = 0.999;
+/// Motion of points by rotation, of the translation: a body with less does not topple.
+constexpr double least_rotation = 0.1;
 
 /// Sums and extremes over the points of a joint.
 struct Joint {
@@ -110,22 +115,20 @@ class Setting {
 
   /// Directions of the planes on which the blocks moving with the fastest body slide.
   [[nodiscard]] std::size_t planes(const JointsByPair& joints, const LimitMotion& motion) {
-    constexpr double parallel = 0.999;
     std::vector<Vector3> planes;
     for (const MovingJoint& joint : motion.joints) {
       if (joint.motion != JointMotion::slides || leads(joint.blocks[0]) == leads(joint.blocks[1])) continue;
       const Vector3 normal = joints.at(joint.blocks).direction.normalized();
-      const bool known = std::any_of(planes.begin(), planes.end(), [&](const Vector3& plane) {
-        return std::abs(plane.dot(normal)) > parallel;
+      const bool listed = std::any_of(planes.begin(), planes.end(), [&](const Vector3& plane) {
+        return std::abs(plane.dot(normal)) > one_plane;
       });
-      if (!known) planes.push_back(normal);
+      if (!listed) planes.push_back(normal);
     }
     return planes.size();
   }
 
   /// True if points of the fastest body move by its rotation.
   [[nodiscard]] bool turns() const {
-    constexpr double no_rotation = 0.1;
     const RigidBody& body = model_.bodies[leader_];
     const RigidMotionOf rigid = motion_of(body, trial_.acceleration[leader_]);
     double reach = 0.0;
@@ -135,7 +138,7 @@ class Setting {
       for (std::size_t k = pair.begin; k < pair.end; ++k)
         if (!model_.points[k].bar) reach = std::max(reach, (model_.points[k].place - body.middle).norm());
     }
-    return rigid.rotation.norm() * reach > no_rotation * rigid.translation.norm();
+    return rigid.rotation.norm() * reach > least_rotation * rigid.translation.norm();
   }
 
   [[nodiscard]] std::string mode(std::size_t planes) const {

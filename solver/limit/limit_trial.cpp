@@ -8,6 +8,16 @@ namespace ashlar {
 namespace {
 
 constexpr int most_trials = 80, most_unknown = 6;
+/// A trial without an outcome is repeated at a smaller factor, at first by this share of the tolerance, then farther by a
+/// ratio: smaller shares repeat the same rounding errors, larger ones shift the limit that is found.
+constexpr double unknown_offset = 0.1, unknown_ratio_of_offsets = 4.0;
+/// Ratio of factors where no upper bound is known: a smaller one needs more trials, a larger one a wider bracket.
+constexpr double upward_stride = 2.0;
+/// Distance of a trial above an estimated limit, of the tolerance (see below_estimate), and the least one from both ends
+/// of the bracket: nearer trials hardly narrow it.
+constexpr double above_estimate = 0.5, from_ends = 0.2;
+/// Largest width of a bracket relative to the one before, as logarithms, for which estimates are used: bisection has 0.5.
+constexpr double narrowing = 0.7;
 
 class Bracketing {
  public:
@@ -23,7 +33,8 @@ class Bracketing {
       if (trial->outcome == LimitOutcome::unknown) {
         if (++unknown > most_unknown) return;
         // Rounding differs at a factor beside it.
-        next = within(next * (1.0 - 0.1 * search_.tolerance * std::pow(4.0, unknown - 1)));
+        next = within(next * (1.0 - unknown_offset * search_.tolerance *
+                                        std::pow(unknown_ratio_of_offsets, unknown - 1)));
         continue;
       }
       note(next, std::move(*trial));
@@ -52,8 +63,8 @@ class Bracketing {
     if (!high) {
       bracket_.resolved = *low >= search_.upper;
       if (bracket_.resolved) return 0.0;
-      const double above = std::exchange(estimate_, 0.0) * (1.0 + 0.5 * search_.tolerance);
-      return std::min(above > *low ? above : 2.0 * *low, search_.upper);
+      const double above = std::exchange(estimate_, 0.0) * (1.0 + above_estimate * search_.tolerance);
+      return std::min(above > *low ? above : upward_stride * *low, search_.upper);
     }
     bracket_.resolved = low ? *high <= *low * (1.0 + search_.tolerance) : *high <= search_.lower;
     if (bracket_.resolved) return 0.0;
@@ -68,11 +79,11 @@ class Bracketing {
   /// the bracket are not used. @return 0: none
   double estimated_factor(double least, double high) {
     const double width = std::log(high / least);
-    const bool helps = width < 0.7 * std::exchange(width_, width);
+    const bool helps = width < narrowing * std::exchange(width_, width);
     if (!helps && std::exchange(estimated_last_, false)) return 0.0;
-    const double below = estimate_ * (1.0 - 0.3 * search_.tolerance),
-                 above = estimate_ * (1.0 + 0.5 * search_.tolerance);
-    const double apart = 1.0 + 0.2 * search_.tolerance;
+    const double below = estimate_ * (1.0 - below_estimate * search_.tolerance),
+                 above = estimate_ * (1.0 + above_estimate * search_.tolerance);
+    const double apart = 1.0 + from_ends * search_.tolerance;
     const double near = last_stands_ || below <= least * apart ? above : below;
     if (estimate_ <= 0.0 || near <= least * apart || near >= high / apart) return 0.0;
     if (last_stands_) estimate_ = 0.0;

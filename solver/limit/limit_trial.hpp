@@ -40,6 +40,10 @@ struct LimitSearch {
   double tolerance = 0.01;  ///< > 0: relative width of the bracket
 };
 
+/// Distance of a trial below an estimated limit, of the tolerance: smaller values may miss the limit by the error of its
+/// estimate, and 1 leaves no width for a bracket by two trials.
+inline constexpr double below_estimate = 0.3;
+
 /// Bounds of one of the two limits.
 struct LimitBracket {
   std::optional<double> lower;       ///< the largest factor that stands; empty: even the least moves

@@ -20,8 +20,13 @@ constexpr double exact = 1e-11;
 constexpr int polished = 4;
 /// Relative to the motion: its remaining share at the end, and the ratio of changes above which the limit is unknown.
 constexpr double left_over = 0.8, slow_ratio = 0.9;
+/// Relative to the motion: a smaller change from check to check is within rounding error, and has no ratio.
+constexpr double no_decay = 1e-6;
 /// Relative to the loads: smaller motion is rest.
 constexpr double resting_motion = 1e-4;
+/// Relative to the largest load: a body with less is compared with this one, as others move it. Smaller values report
+/// motion of bodies nearly without load, larger ones miss that of small bodies.
+constexpr double least_load = 1e-3;
 constexpr int first_check = 64, most_sweeps = 4096;
 /// Total number of updates of points: large models get fewer sweeps.
 constexpr double most_updates = 1e7;
@@ -139,9 +144,8 @@ class Decay {
   }
   /// True if motion persists, extrapolated from its last changes, which decrease by a ratio from check to check.
   [[nodiscard]] bool lasts() const {
-    constexpr double no_change = 1e-6;
     if (count_ < 3) return false;
-    return change_ <= no_change * motion_ || left() > left_over * motion_;
+    return change_ <= no_decay * motion_ || left() > left_over * motion_;
   }
   /// True if the motion vanishes in the limit.
   [[nodiscard]] bool ends() const { return count_ >= 4 && left() < 0.0; }
@@ -161,7 +165,6 @@ class Decay {
 
 double largest_motion(const std::vector<BodyVelocity>& velocity, const std::vector<BodyVelocity>& load,
                       std::size_t bodies) {
-  constexpr double least_load = 1e-3;
   double most = 0.0, largest = 0.0;
   for (const BodyVelocity& own : load) largest = std::max(largest, own.norm());
   if (largest == 0.0) return 0.0;

@@ -21,6 +21,13 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+/// Share of a motion that supports hold, 0 to the number of supported blocks of a body: a motion with less is free.
+/// Smaller values mistake rounding errors for supports, larger ones ignore supports nearly parallel to others.
+constexpr double as_good_as_free = 1e-6;
+/// Records of joints: the force of a point that transmits none, of the largest one, and its shear at the friction limit,
+/// of that limit. The answer of a programme has about this accuracy.
+constexpr double no_force = 1e-9, at_friction_limit = 1.0 - 1e-6;
+
 Eigen::Matrix3d cross_matrix(const Vector3& d) {
   Eigen::Matrix3d m;
   m << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0;
@@ -68,7 +75,6 @@ Eigen::MatrixXd motions_left(const BlockSystem& system, const RigidBody& body) {
     if (block.fixed()) return Eigen::MatrixXd(6, 0);
     if (block.supported()) held += held_by_supports(block, body.middle, size);
   }
-  constexpr double as_good_as_free = 1e-6;
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(held);
   const auto count = static_cast<Eigen::Index>((solver.eigenvalues().array() < as_good_as_free).count());
   Eigen::MatrixXd left = solver.eigenvectors().leftCols(count);
@@ -290,7 +296,6 @@ std::vector<Eigen::Vector3d> in_newtons(const RigidModel& model, std::vector<Eig
 
 std::vector<PairRecord> contact_records(const RigidModel& model, const std::vector<Eigen::Vector3d>& force,
                                         const std::vector<bool>& divided, double factor) {
-  constexpr double bears = 1e-9, at_limit = 1.0 - 1e-6;
   double largest = 0.0;
   for (const Eigen::Vector3d& f : force) largest = std::max(largest, f.norm());
   std::map<PairKey, PairRecord> records;
@@ -308,10 +313,10 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
     const double shear = force[k].tail<2>().norm();
     const double limit =
         strength.friction * std::max(force[k][0], 0.0) + strength.cohesion * model.units.force();
-    const bool slides = shear > bears * largest && shear >= at_limit * limit;
-    response.state = force[k].norm() <= bears * largest ? ContactState::open
-                     : slides                           ? ContactState::sliding
-                                                        : ContactState::locked;
+    const bool slides = shear > no_force * largest && shear >= at_friction_limit * limit;
+    response.state = force[k].norm() <= no_force * largest ? ContactState::open
+                     : slides                              ? ContactState::sliding
+                                                           : ContactState::locked;
     if (response.state == ContactState::open) response.force.setZero();
     record.points.push_back(point.contact);
     record.responses.push_back(response);

@@ -9,6 +9,9 @@
 namespace ashlar {
 namespace {
 
+/// Sets of bodies from which slow slip starts: more find rarer motions, and each costs up to 60 programmes (slow_slip.cpp).
+constexpr int most_sets = 4;
+
 std::unique_ptr<LimitAnalysis> with_others_held(const RigidModel& model, const std::vector<bool>& reduced,
                                                 std::size_t body) {
   std::vector<bool> free(model.bodies.size(), false);
@@ -55,7 +58,6 @@ std::vector<BodyVelocity> SingleBodies::motions(const LimitFactors& factors, dou
 }
 
 std::vector<std::vector<BodyVelocity>> SingleBodies::sets(const LimitFactors& factors, double tolerance) {
-  constexpr int most_sets = 4;
   const std::vector<BodyVelocity> velocity = motions(factors, tolerance);
   std::vector<std::size_t> order;
   for (std::size_t b = 0; b < velocity.size(); ++b)

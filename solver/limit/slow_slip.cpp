@@ -12,11 +12,20 @@ constexpr int most_slip_programmes = 60;
 constexpr double same = 1e-3, alike = 0.1;
 /// Relative to the growth: remaining change that leaves its sign certain.
 constexpr double clearly = 0.2;
+/// Ratio of successive changes of the growth below which they are extrapolated: the sum of a slower series is too
+/// uncertain.
+constexpr double slowest_series = 0.95;
 /// Repeated decay at this rate ends at rest.
 constexpr double fast_decay = -0.5;
 constexpr int fast_decays = 3;
 /// Relative to the initial slip: slip has vanished.
 constexpr double no_slip = 1e-4;
+
+/// Accelerations that slip leads to: size of the first motion relative to that by the loads, in which inertia becomes
+/// relevant (larger: beside the slip, smaller: more programmes), the change of shifts in a programme that has converged,
+/// and the largest number of programmes.
+constexpr double first_motion = 0.1, shifts_converged = 0.05;
+constexpr int most_shift_programmes = 12;
 
 /// Shifts that limit the opening of joints to their dilation. @return by point
 Eigen::VectorXd shifts_of(const ConeProgram& program, const std::vector<double>& dilation,
@@ -41,7 +50,7 @@ class Growth {
     change_ = growth_ - last;
     // Geometrically decreasing changes have a finite sum.
     const double ratio = count_ > 1 ? change_ / last_change : 0.0;
-    limit_ = ratio > 0.0 && ratio < 0.95 ? growth_ + change_ * ratio / (1.0 - ratio) : growth_;
+    limit_ = ratio > 0.0 && ratio < slowest_series ? growth_ + change_ * ratio / (1.0 - ratio) : growth_;
     decays_ = growth_ < fast_decay ? decays_ + 1 : 0;
     total_ += growth_;
     ++count_;
@@ -103,25 +112,22 @@ ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilati
 
 ReleasedMotion motion_of_slip(ConeProgram& program, const std::vector<double>& dilation,
                               const std::vector<BodyVelocity>& load, const std::vector<BodyVelocity>& slip) {
-  // Initial and final size of the motion relative to that by the loads, in which inertia becomes relevant.
-  constexpr double first_motion = 0.1, followed_to = 0.05, programme_gap = 1e-8;
-  constexpr int most_followed = 12;
   ReleasedMotion found;
   ConeQuestion question;
   question.load = load;
-  question.gap = programme_gap;
+  question.gap = gap_of_motion;
   const double motion = largest_motion(slip, load, program.loaded_bodies());
   if (!(motion > 0.0)) return found;
   Eigen::VectorXd shift = first_motion / motion * shifts_of(program, dilation, slip);
   std::vector<Eigen::Vector3d> force;
-  for (int n = 0; n < most_followed; ++n) {
+  for (int n = 0; n < most_shift_programmes; ++n) {
     question.shift.assign(shift.begin(), shift.end());
     ConeAnswer answer = asked(program, question, found);
     force = std::move(answer.force);
     Eigen::VectorXd next = shifts_of(program, dilation, answer.velocity);
-    const bool followed = (next - shift).norm() <= followed_to * next.norm();
+    const bool converged = (next - shift).norm() <= shifts_converged * next.norm();
     shift = std::move(next);
-    if (followed) break;
+    if (converged) break;
   }
   ReleasedMotion polished = motion_from_rest(program, dilation, load, std::move(force));
   polished.programmes += found.programmes;
