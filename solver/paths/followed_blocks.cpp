@@ -12,6 +12,12 @@
 namespace ashlar {
 namespace {
 
+/// Of the fastest block: slower ones do not belong to the mechanism. Smaller values list blocks that move by rounding.
+constexpr double mechanism_share = 0.01;
+/// Squared motion over the gap of its programme: loads cannot be balanced. Smaller values mistake the error of a programme
+/// for motion, larger ones leave more ends of paths undetermined.
+constexpr double certain_motion_over_gap = 10.0;
+
 Eigen::Matrix3d turn_of(const Vector3& rotation) {
   const double angle = rotation.norm();
   if (!(angle > 0.0)) return Eigen::Matrix3d::Identity();
@@ -98,11 +104,10 @@ double FollowedBlocks::largest_way(const RigidModel& model, const std::vector<Bo
 
 std::vector<int> FollowedBlocks::moving_blocks(const RigidModel& model,
                                                const std::vector<BodyVelocity>& velocity) const {
-  constexpr double moves_along = 0.01;  // of the fastest
   const double largest = largest_way(model, velocity);
   std::vector<int> moving;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (way_of(model.bodies[b], velocity[b]) > moves_along * largest)
+    if (way_of(model.bodies[b], velocity[b]) > mechanism_share * largest)
       moving.insert(moving.end(), model.bodies[b].blocks.begin(), model.bodies[b].blocks.end());
   std::sort(moving.begin(), moving.end());
   return moving;
@@ -157,10 +162,10 @@ RigidModel midway(const RigidModel& model, const ConeProgram& program, const std
 }
 
 std::vector<double> gaps_over(const RigidModel& model, double length) {
-  constexpr double farthest = 1e3;
   std::vector<double> gaps;
   gaps.reserve(model.points.size());
-  for (const RigidPoint& point : model.points) gaps.push_back(std::min(point.contact.gap / length, farthest));
+  for (const RigidPoint& point : model.points)
+    gaps.push_back(std::min(point.contact.gap / length, largest_shift));
   return gaps;
 }
 
@@ -170,13 +175,12 @@ std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way) {
 }
 
 bool cannot_balance(ConeProgram& program, const std::vector<BodyVelocity>& load) {
-  constexpr double certain = 10.0;
   ConeQuestion question;
   question.load = load;
   const ConeAnswer answer = program.solve(question);
   double square = 0.0;
   for (const BodyVelocity& v : answer.velocity) square += v.squaredNorm();
-  return answer.status == ConeStatus::solved && square > certain * answer.gap;
+  return answer.status == ConeStatus::solved && square > certain_motion_over_gap * answer.gap;
 }
 
 double smallest_size(const BlockSystem& system, const RigidModel& model) {

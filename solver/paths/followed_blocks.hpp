@@ -13,6 +13,17 @@
 
 namespace ashlar {
 
+/// Largest gap of points in sizes of the smallest block: two blocks cannot meet undetected in half of it. Smaller values
+/// shorten the steps of a path.
+inline constexpr double largest_reach_share = 0.2;
+/// Largest gap over the length of a step, as the shift of a point: programmes lose digits by larger ones, and smaller ones
+/// let blocks close gaps that they do not reach.
+inline constexpr double largest_shift = 1e3;
+/// Of the largest force: a point under more pressure transmits it, and its slip counts.
+inline constexpr double point_bears = 1e-3;
+/// Displacement that stands for none in a quotient, m.
+inline constexpr double least_displacement = 1e-300;
+
 /// Placement of blocks, as a value.
 struct FollowedPlace {
   double moved = 0.0;                 ///< q of the support, m
@@ -57,8 +68,8 @@ class FollowedBlocks {
 [[nodiscard]] RigidModel midway(const RigidModel& model, const ConeProgram& program,
                                 const std::vector<BodyVelocity>& way);
 
-/// Gaps relative to a length, by point of a model, limited to a thousand: programmes lose digits by shifts of very
-/// different sizes. Forces across larger gaps are detected when gaps are closed.
+/// Gaps relative to a length, by point of a model, limited to largest_shift. Forces across larger gaps are detected when
+/// gaps are closed.
 [[nodiscard]] std::vector<double> gaps_over(const RigidModel& model, double length);
 
 [[nodiscard]] std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way);

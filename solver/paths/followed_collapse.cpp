@@ -16,18 +16,25 @@ namespace {
 constexpr int most_steps = 100;
 /// Programmes of a step until its length is within reach.
 constexpr int most_lengths = 6;
-/// Largest gap of points, and the motion of a step in which two blocks cannot meet undetected, in sizes of the smallest
-/// block.
-constexpr double reach_share = 0.2, step_share = 0.4 * reach_share;
+/// The motion of a step in which two blocks cannot meet undetected, in sizes of the smallest block.
+constexpr double step_share = 0.4 * largest_reach_share;
 /// Motion of blocks at rest, in those of a step.
 constexpr double rest_share = 1e-4;
+/// Motion of a step that is repeated as too short, and the one that the next trial aims at, of the longest one: a larger
+/// aim has more trials that go too far.
+constexpr double short_motion = 0.3, aimed_motion = 0.8;
+/// Displacement over acceleration, in motions of a step: at first, and at most, where accelerations of 1e-4 of their unit
+/// move blocks by a step; ratio of successive ones at most.
+constexpr double first_scale = 1e-2, longest_scale = 1e4, most_scale_ratio = 1e4;
+/// Gap of programmes relative to the loads (cone_program.hpp): larger ones blur motion near rest.
+constexpr double gap_of_collapse = 1e-9;
 
 /// Blocks at one placement.
 class CollapsePath {
  public:
   CollapsePath(const PlacedScene& scene, double smallest)
       : scene_(scene),
-        blocks_(scene, reach_share * smallest),
+        blocks_(scene, largest_reach_share * smallest),
         length_(step_share * smallest),
         placement_(blocks_.as_placed()) {}
 
@@ -54,7 +61,7 @@ class CollapsePath {
     ConeProgram program = program_of(model, scene_.threads);
     ConeQuestion question;
     question.load = model.steady;
-    question.gap = 1e-9;
+    question.gap = gap_of_collapse;
     double scale = last_scale_;  // displacement over acceleration, m
     for (int n = 0; n < most_lengths; ++n) {
       question.shift.clear();
@@ -63,25 +70,24 @@ class CollapsePath {
       const ConeAnswer answer = program.solve(question);
       ++path_.programmes;
       if (answer.status != ConeStatus::solved) return std::nullopt;
-      std::vector<BodyVelocity> way = answer.velocity;
-      for (BodyVelocity& v : way) v *= scale;
-      const double farthest = blocks_.largest_way(model, way);
+      std::vector<BodyVelocity> motion = answer.velocity;
+      for (BodyVelocity& v : motion) v *= scale;
+      const double farthest = blocks_.largest_way(model, motion);
+      const double longest = longest_scale * length_;
       const bool last = n + 1 == most_lengths;
-      if (farthest > length_ || (farthest < 0.3 * length_ && scale < longest_scale() && !last)) {
+      if (farthest > length_ || (farthest < short_motion * length_ && scale < longest && !last)) {
         if (last) return std::nullopt;
-        scale = std::min(longest_scale(),
-                         scale * std::clamp(0.8 * length_ / std::max(farthest, 1e-300), 1e-4, 1e4));
+        scale = std::min(longest,
+                         scale * std::clamp(aimed_motion * length_ / std::max(farthest, least_displacement),
+                                            1.0 / most_scale_ratio, most_scale_ratio));
         continue;
       }
       last_scale_ = scale;
-      blocks_.move(model, way, placement_);
+      blocks_.move(model, motion, placement_);
       return farthest;
     }
     return std::nullopt;
   }
-
-  /// Accelerations of 1e-4 of their unit move blocks by a step.
-  [[nodiscard]] double longest_scale() const { return 1e4 * length_; }
 
   void note_displacements() {
     path_.displacements.assign(placement_.states.size(), 0.0);
@@ -95,13 +101,11 @@ class CollapsePath {
     }
   }
 
-  static constexpr double largest_shift = 1e3;
-
   const PlacedScene& scene_;
   FollowedBlocks blocks_;
   double length_;  ///< m, of a step
   FollowedPlace placement_;
-  double last_scale_ = 1e-2 * length_;
+  double last_scale_ = first_scale * length_;
   Collapse path_;
 };
 

@@ -24,6 +24,10 @@ constexpr double strength_accuracy = 1.05;
 /// Strength factor at the start of the path: with ten times their strength joints neither slide nor tear, unless blocks
 /// would wedge at any friction that there is.
 constexpr double nothing_slides = 0.1;
+/// Pressure of the most pressed joint at the least strength, of that strength: forces of the path have about this accuracy.
+constexpr double reaches_strength = 1.0 - 1e-6;
+/// Trial of the onset below a bracket that has no lower end, of its upper end, at most.
+constexpr double below_bracket = 0.9;
 
 /// Search along one path.
 class PathSearch {
@@ -152,7 +156,7 @@ class PathSearch {
       }
     }
     answer_.least_strength = stands;
-    answer_.strength_joint = path_.most_pressed(state, (1.0 - 1e-6) * stands);
+    answer_.strength_joint = path_.most_pressed(state, reaches_strength * stands);
   }
 
   void find_onset() {
@@ -172,8 +176,8 @@ class PathSearch {
     }
     const double accuracy = std::max(onset_accuracy, search_.tolerance);
     while (after != rest_.end() && high > low * (1.0 + accuracy) && goes_on_()) {
-      const double middle =
-          low > 0.0 ? std::sqrt(low * high) : std::max(0.5 * high, std::min(search_.lower, 0.9 * high));
+      const double middle = low > 0.0 ? std::sqrt(low * high)
+                                      : std::max(0.5 * high, std::min(search_.lower, below_bracket * high));
       PathTrial trial = path_.to(before.end, factors(middle));
       if (trial.outcome == LimitOutcome::stands && yields(trial).empty()) {
         low = middle;

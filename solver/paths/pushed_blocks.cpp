@@ -19,8 +19,15 @@ constexpr int most_adaptations = 4;
 constexpr double alike_ways = 1.25;
 /// Push while gaps are closed, of `closed` and of the gap.
 constexpr double push_of_closed = 0.1, push_of_gap = 1e-2;
-/// Multiplier of loads as large as the steady ones that counts as unbounded.
-constexpr double unbounded = 1e3;
+/// Ratio of steps that are tried from the blocks as placed: larger ones may miss the length of a short gap.
+constexpr double shorter_first_step = 0.25;
+/// Angle below which quotients of sines are their limits, rad: the error is its square.
+constexpr double small_screw = 1e-4;
+
+/// Search for a multiplier that balances blocks (falls_at_failure): sections, range over the largest multiplier of the path,
+/// and the acceleration of blocks that fall, over that by the loads. Smaller ones may be errors of the programme.
+constexpr int most_sections = 14;
+constexpr double golden_section = 0.6180339887498949, multiplier_range = 3.0, falling_motion = 0.02;
 
 double sum_of_norms(const std::vector<BodyVelocity>& loads) {
   double sum = 0.0;
@@ -31,11 +38,10 @@ double sum_of_norms(const std::vector<BodyVelocity>& loads) {
 /// Displacement of a body's centre by a constant twist. @param translation m, of the centre at the start
 /// @param rotation rad
 Vector3 way_along_screw(const Vector3& translation, const Vector3& rotation) {
-  constexpr double small_angle = 1e-4;
   const double angle = rotation.norm();
   const double half = 0.5 * angle;
-  const double first = angle < small_angle ? 0.5 : 2.0 * std::pow(std::sin(half) / angle, 2);
-  const double second = angle < small_angle ? 1.0 / 6.0 : (angle - std::sin(angle)) / std::pow(angle, 3);
+  const double first = angle < small_screw ? 0.5 : 2.0 * std::pow(std::sin(half) / angle, 2);
+  const double second = angle < small_screw ? 1.0 / 6.0 : (angle - std::sin(angle)) / std::pow(angle, 3);
   const Vector3 across = rotation.cross(translation);
   return translation + first * across + second * rotation.cross(across);
 }
@@ -61,13 +67,13 @@ std::vector<BodyVelocity> along_screws(const RigidModel& model, const std::vecto
 /// Largest opening of points under pressure in a motion, m. @param way m
 double opening_of_push(const PushedPlace& from, const std::vector<BodyVelocity>& way,
                        const std::vector<Eigen::Vector3d>& force) {
-  constexpr double bears = 1e-3;  // of the largest force
   double largest = 0.0, opened = 0.0;
   for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
   const std::vector<ConePair>& pairs = from.program->pairs();
   for (std::size_t n = 0; n < pairs.size(); ++n)
     for (std::size_t k = pairs[n].begin; k < pairs[n].end; ++k)
-      if (force[k][0] > bears * largest) opened = std::max(opened, from.program->relative(n, k, way)[0]);
+      if (force[k][0] > point_bears * largest)
+        opened = std::max(opened, from.program->relative(n, k, way)[0]);
   return opened;
 }
 
@@ -133,20 +139,19 @@ std::optional<ConeAnswer> PushedBlocks::pushed_by(PushedPlace& from, double leng
 }
 
 std::optional<PushedPlace> PushedBlocks::start() {
-  constexpr double shorter = 0.25;
   PushedPlace placed;
   placed.placement = blocks_.as_placed();
   placed.model = model_of(placed.placement);
   placed.program.emplace(program_of(placed.model, threads_));
   const double steady = sum_of_norms(placed.model.steady), pushed = sum_of_norms(placed.model.multiplied);
   if (!(pushed > 0.0)) throw std::invalid_argument("the pushed loads move no block");
-  most_ = unbounded * std::max(steady, pushed) / pushed;
+  most_ = unbounded_over_loads * std::max(steady, pushed) / pushed;
   if (cannot_balance(*placed.program, placed.model.steady)) {
     failure_ = PushFailure::unbalanced;
     return std::nullopt;
   }
   // A gap may be shorter than a step.
-  for (double length = lengths_.longest_step; length >= lengths_.closed; length *= shorter) {
+  for (double length = lengths_.longest_step; length >= lengths_.closed; length *= shorter_first_step) {
     rate_ = pushed;
     if (pushed_by(placed, length)) return settled(std::move(placed.placement), lengths_.reach);
   }
@@ -218,32 +223,30 @@ std::optional<PushedPlace> PushedBlocks::settled(FollowedPlace placement, double
 
 bool PushedBlocks::falls_at_failure(double size) {
   // The squared acceleration by Gauss's principle is convex in the multiplier: golden section.
-  constexpr int sections = 14;
-  constexpr double golden = 0.6180339887498949, range = 3.0, falls = 0.02, programme_gap = 1e-8;
   if (!failed_) return false;
   const auto motion = [&](double multiplier) {
     ConeQuestion question;
     question.load = failed_->model.steady;
     for (std::size_t b = 0; b < question.load.size(); ++b)
       question.load[b] += multiplier * failed_->model.multiplied[b];
-    question.gap = programme_gap;
+    question.gap = gap_of_motion;
     const ConeAnswer answer = failed_->program->solve(question);
     ++programmes_;
     if (answer.status != ConeStatus::solved) return 0.0;
     return largest_motion(answer.velocity, question.load, failed_->program->loaded_bodies());
   };
-  double low = -range * size, high = range * size;
-  double left = high - golden * (high - low), right = low + golden * (high - low);
+  double low = -multiplier_range * size, high = multiplier_range * size;
+  double left = high - golden_section * (high - low), right = low + golden_section * (high - low);
   double at_left = motion(left), at_right = motion(right);
-  for (int n = 0; n < sections; ++n) {
-    if (std::min(at_left, at_right) <= falls) return false;
+  for (int n = 0; n < most_sections; ++n) {
+    if (std::min(at_left, at_right) <= falling_motion) return false;
     if (at_left < at_right) {
       high = right;
-      right = std::exchange(left, right - golden * (right - low));
+      right = std::exchange(left, right - golden_section * (right - low));
       at_right = std::exchange(at_left, motion(left));
     } else {
       low = left;
-      left = std::exchange(right, left + golden * (high - left));
+      left = std::exchange(right, left + golden_section * (high - left));
       at_left = std::exchange(at_right, motion(right));
     }
   }

@@ -68,7 +68,7 @@ class PushedBlocks {
   int threads_;
   FollowedBlocks blocks_;
   double rate_ = 1.0;  ///< c: F1 . u per way of the block that moves farthest, in units of the model
-  double most_ = 1e3;  ///< multiplier that counts as unbounded
+  double most_ = unbounded_over_loads;  ///< multiplier that counts as unbounded
   double last_way_ = 0.0;
   std::optional<PushedPlace>
       failed_;  ///< where the last step has led, if its programme has not reached its tolerances

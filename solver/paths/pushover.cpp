@@ -23,6 +23,11 @@ constexpr int most_place_trials = 24;
 constexpr double near_zero = 1e-6;
 /// How near a displacement is met, relative to it.
 constexpr double near_displacement = 1e-8;
+/// Least motion of the control, of that of the block that moves farthest: in the first mechanism, and in a step, after which
+/// it has advanced. With less, displacements are too small to control the path.
+constexpr double control_moves = 1e-6, control_advances = 1e-3;
+/// Ratio of a second trial to a step that has not reached a displacement it had reached before.
+constexpr double longer_trial = 1.2;
 
 /// A place that the path can return to.
 struct Visited {
@@ -65,8 +70,7 @@ class PushoverPath {
     const std::vector<int> moving = pushed_.blocks().moving_blocks(here_->model, here_->velocity);
     moving_first_ = moving;
     const double rate = control_rate();
-    constexpr double at_rest = 1e-6;  // of the way of the block that moves farthest
-    if (!(rate > at_rest)) {
+    if (!(rate > control_moves)) {
       path_.end = PushoverEnd::control_at_rest;
       return false;
     }
@@ -182,8 +186,7 @@ class PushoverPath {
 
   /// True if blocks have moved on by the limit of the search while the control has not. @param displacement m, of it
   bool rests(double displacement, double length) {
-    constexpr double advances = 1e-3;  // of the way
-    if (displacement > farthest_ + advances * length) {
+    if (displacement > farthest_ + control_advances * length) {
       farthest_ = displacement;
       way_at_rest_ = 0.0;
     } else {
@@ -192,11 +195,9 @@ class PushoverPath {
     return way_at_rest_ > search_.limit;
   }
 
-  /// Length in proportion to the displacement of blocks in the last step. @param most factor
+  /// @param most factor
   [[nodiscard]] double next_length(double length, double most) const {
-    constexpr double margin = 0.8, least = 0.1;
-    return length *
-           std::clamp(margin * lengths_.farthest / std::max(pushed_.last_way(), 1e-300), least, most);
+    return lengths_.next_step(length, pushed_.last_way(), most);
   }
 
   [[nodiscard]] PushoverEnd end_of_failure() {
@@ -286,13 +287,12 @@ class PushoverPath {
       here_ = pushed_.settled(visited_[k].placement, lengths_.farthest);
       if (!here_) return;
       // Steps are lengths of a block's way, which depends a little on earlier ones.
-      constexpr double longer = 1.2;
       double length = visited_[k].length;
       const auto left = [&](const PushedPlace& place) {
         return displacement - displacement_of(place.placement);
       };
       std::optional<PushedPlace> beyond = pushed_.advanced(*here_, length);
-      if (beyond && left(*beyond) > 0.0) beyond = pushed_.advanced(*here_, length *= longer);
+      if (beyond && left(*beyond) > 0.0) beyond = pushed_.advanced(*here_, length *= longer_trial);
       if (!beyond || left(*beyond) > 0.0) return;
       const PushedPlace found = met(length, std::move(*beyond), tolerance, left);
       const auto next = static_cast<std::ptrdiff_t>(k + 1);

@@ -7,10 +7,15 @@
 #include "solver/paths/pushed_blocks.hpp"
 
 namespace ashlar {
+namespace {
+
+/// Least multiplier of the search, of that of the limit: blocks that move below it have none.
+constexpr double least_share_of_limit = 1e-3;
+
+}  // namespace
 
 std::optional<PushoverActivation> pushover_activation(const PlacedScene& scene, const PushoverSearch& search,
                                                       double limit) {
-  constexpr double least_share = 1e-3;  // of the limit
   RunState placed;
   placed.states = scene.states;
   for (const auto& [blocks, history] : scene.histories) placed.pairs[blocks].overlap = history.overlap;
@@ -24,8 +29,9 @@ std::optional<PushoverActivation> pushover_activation(const PlacedScene& scene, 
   LoadPath path(
       std::move(model), [](int, int) { return false; }, std::move(allowed));
   const LimitBracket associated{limit, limit * (1.0 + activation_tolerance), true, std::nullopt};
-  const PathAnswer answer = search_path(
-      path, Sought::load, {least_share * limit, limit, activation_tolerance}, associated, search.goes_on);
+  const PathAnswer answer =
+      search_path(path, Sought::load, {least_share_of_limit * limit, limit, activation_tolerance}, associated,
+                  search.goes_on);
   if (answer.interrupted) return std::nullopt;
   const double rest = answer.lower.value_or(0.0);
   if (rest >= limit * (1.0 - 2.0 * activation_tolerance)) return PushoverActivation{limit, true};

@@ -11,16 +11,19 @@
 namespace ashlar {
 namespace {
 
+/// Slip of a joint over the movement from which on a path is followed on which it slides first, and the largest number of
+/// such paths: more may find a smaller range, and each costs as much as the first path.
+constexpr double slid_share = 0.01;
+constexpr std::size_t most_first_slides = 8;
+
 /// Joints that have slid by more than a share of the movement, those that have slid most first, some at most.
 std::vector<PairKey> slid_joints(const SupportPath& path) {
-  constexpr double share = 0.01;
-  constexpr std::size_t most = 8;
   std::vector<MovedJoint> joints = path.joints;
   std::stable_sort(joints.begin(), joints.end(),
                    [](const MovedJoint& a, const MovedJoint& b) { return a.slip > b.slip; });
   std::vector<PairKey> slid;
   for (const MovedJoint& joint : joints)
-    if (joint.slip > share * path.lower && slid.size() < most) slid.push_back(joint.blocks);
+    if (joint.slip > slid_share * path.lower && slid.size() < most_first_slides) slid.push_back(joint.blocks);
   return slid;
 }
 

@@ -15,6 +15,18 @@ constexpr int most_closings = 30;
 constexpr int most_unknown_steps = 10;  ///< undetermined steps within the tolerance
 /// Programmes of a path: ends a path that halves its step indefinitely.
 constexpr int most_programmes = 50000;
+/// Reach in sizes of the smallest block, at least: smaller contact distances would need too many steps.
+constexpr double least_reach_share = 0.05;
+/// Displacement of blocks that the next step aims at, of the largest one allowed, and the least length of a step over the
+/// last one: a larger aim has more steps that go too far, a smaller one more steps.
+constexpr double aimed_displacement = 0.8, least_growth = 0.1;
+/// Ratio of steps from which forces of the last placement are sought: smaller ones repeat the same rounding errors.
+constexpr double longer_probe = 4.0;
+/// Share of its friction with which the joint that slides first moves: nearer to 1 the order of slip is undetermined again
+/// (notes/limit_analysis.md).
+constexpr double friction_of_first = 0.5;
+/// Rotation of a joint that is reported, rad: less is that of rounding.
+constexpr double least_joint_rotation = 1e-4;
 
 enum class StepEnd { equilibrium, jammed, unbalanced, far, undetermined };
 
@@ -59,10 +71,9 @@ class Path {
   /// Records the thrust and the forces of the last placement. Rounding may leave those of a short step undetermined: longer
   /// ones are tried. @param step m
   void note_last_place(double step) {
-    constexpr double longer = 4.0;
     std::optional<Prediction> ahead = predict(step);
     while (!ahead && failed_ == StepEnd::undetermined && step < lengths_.longest_step) {
-      step = std::min(longer * step, lengths_.longest_step);
+      step = std::min(longer_probe * step, lengths_.longest_step);
       ahead = predict(step);
     }
     if (ahead)
@@ -86,18 +97,18 @@ class Path {
       if (end == StepEnd::equilibrium) {
         path_.upper.reset();
         path_.end = MovementEnd::reaches_limit;
-        step = std::min(lengths_.longest_step, next_step(step, 2.0));
+        step = std::min(lengths_.longest_step, lengths_.next_step(step, last_way_, 2.0));
         continue;
       }
       note_end(end, step, search.tolerance);
       const bool narrow = step <= search.tolerance;
-      const bool known = narrow && path_.upper && *path_.upper - moved() <= 2.0 * search.tolerance;
+      const bool bracketed = narrow && path_.upper && *path_.upper - moved() <= 2.0 * search.tolerance;
       // Rounding differs beside an undetermined place.
-      if (known || (narrow && ++unknown > most_unknown_steps) || path_.programmes >= most_programmes) {
+      if (bracketed || (narrow && ++unknown > most_unknown_steps) || path_.programmes >= most_programmes) {
         if (!path_.upper) path_.end = MovementEnd::not_determined;
         return;
       }
-      step = narrow ? 0.5 * step : std::max(next_step(step, 0.5), 0.5 * search.tolerance);
+      step = narrow ? 0.5 * step : std::max(lengths_.next_step(step, last_way_, 0.5), 0.5 * search.tolerance);
     }
   }
 
@@ -109,17 +120,10 @@ class Path {
     path_.end = end == StepEnd::jammed ? MovementEnd::jams : MovementEnd::collapses;
   }
 
-  /// Length in proportion to the displacement of blocks in the last step. @param most factor
-  [[nodiscard]] double next_step(double step, double most) const {
-    constexpr double margin = 0.8, least = 0.1;
-    return step * std::clamp(margin * lengths_.farthest / std::max(last_way_, 1e-300), least, most);
-  }
-
   /// The model whose motion is that of a step: of an equal one, the joint that slides first has less friction.
   [[nodiscard]] RigidModel yielding(RigidModel model) const {
-    constexpr double remains = 0.5;
     for (RigidPoint& point : model.points)
-      if (key_of(point.blocks) == slides_first_) point.law.friction *= remains;
+      if (key_of(point.blocks) == slides_first_) point.law.friction *= friction_of_first;
     return model;
   }
 
@@ -221,13 +225,12 @@ class Path {
   static void note_slip(const RigidModel& model, const ConeProgram& program,
                         const std::vector<BodyVelocity>& way, const std::vector<Eigen::Vector3d>& force,
                         FollowedPlace& placement) {
-    constexpr double bears = 1e-3;  // of the largest force
     double largest = 0.0;
     for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
     std::map<PairKey, double> slid;
     for (std::size_t n = 0; n < program.pairs().size(); ++n) {
       for (std::size_t k = program.pairs()[n].begin; k < program.pairs()[n].end; ++k) {
-        if (!(force[k][0] > bears * largest)) continue;
+        if (!(force[k][0] > point_bears * largest)) continue;
         double& most = slid[key_of(model.points[k].blocks)];
         most = std::max(most, program.relative(n, k, way).tail<2>().norm());
       }
@@ -236,7 +239,6 @@ class Path {
   }
 
   void note_joints(const RigidModel& first) {
-    constexpr double turned = 1e-4;  // rad
     std::map<PairKey, JointResultant> bearing;
     if (force_.size() == model_->points.size()) {
       path_.contacts = contact_records(*model_, in_newtons(*model_, force_));
@@ -254,7 +256,8 @@ class Path {
       MovedJoint joint{blocks, found != bearing.end() ? found->second.place : place,
                        Eigen::AngleAxisd(relative).angle(),
                        slip != placement_.slip.end() ? slip->second : 0.0, found != bearing.end()};
-      if (joint.rotation > turned || joint.slip > lengths_.closed) path_.joints.push_back(joint);
+      if (joint.rotation > least_joint_rotation || joint.slip > lengths_.closed)
+        path_.joints.push_back(joint);
     }
   }
 
@@ -286,7 +289,13 @@ class Path {
 }  // namespace
 
 PathLengths::PathLengths(double smallest_block, double contact_distance)
-    : reach(std::clamp(contact_distance, 0.05 * smallest_block, 0.2 * smallest_block)) {}
+    : reach(std::clamp(contact_distance, least_reach_share * smallest_block,
+                       largest_reach_share * smallest_block)) {}
+
+double PathLengths::next_step(double step, double moved, double most) const {
+  return step *
+         std::clamp(aimed_displacement * farthest / std::max(moved, least_displacement), least_growth, most);
+}
 
 SupportPath path_of(const SupportStart& start, const MovementSearch& search) {
   return Path(start).follow(search);

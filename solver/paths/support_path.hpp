@@ -15,6 +15,10 @@ struct PathLengths {
   /// @param smallest_block m, as smallest_size. @param contact_distance m
   PathLengths(double smallest_block, double contact_distance);
 
+  /// Length of the next step in proportion to the displacement of blocks in the last one, m.
+  /// @param step m, the last one. @param moved m, displacement of blocks in it. @param most factor
+  [[nodiscard]] double next_step(double step, double moved, double most) const;
+
   double reach;                        ///< m, largest gap of detected points
   double farthest = 0.5 * reach;       ///< m, largest displacement of a block in a step: two blocks cannot
                                        ///< meet undetected

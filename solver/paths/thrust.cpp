@@ -14,6 +14,8 @@ namespace {
 /// Relative difference of an extreme by both bounds of parts up to which they are divided.
 constexpr double close_thrust = 5e-4;
 constexpr int most_thrust_divisions = 30;
+/// Normal force of a joint that has a resultant, of the largest one: the place of a smaller one is that of rounding.
+constexpr double least_resultant = 1e-6;
 
 /// Thrust of a support along the coordinate in which it moves away from the structure.
 class ThrustProgram {
@@ -117,7 +119,8 @@ std::vector<JointResultant> joint_resultants(const RigidModel& model, const std:
   }
   std::vector<JointResultant> resultants;
   for (const auto& [blocks, sum] : sums)
-    if (sum.normal > 1e-6 * largest) resultants.push_back({blocks, sum.place / sum.normal, sum.force});
+    if (sum.normal > least_resultant * largest)
+      resultants.push_back({blocks, sum.place / sum.normal, sum.force});
   return resultants;
 }
 

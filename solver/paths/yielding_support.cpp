@@ -11,6 +11,12 @@
 namespace ashlar {
 namespace {
 
+/// Mean of the directions from the centre to the points of a support, over the mean of their lengths: with less the support
+/// lies around the structure. Larger values need more one-sided supports, smaller ones take asymmetry for a side.
+constexpr double one_side = 0.1;
+/// Residual of forces in balance, over the loads: larger values accept forces that programmes could not determine.
+constexpr double balanced_residual = 1e-4;
+
 bool is_of(const RigidPoint& point, int block) {
   return point.blocks[0] == block || point.blocks[1] == block;
 }
@@ -41,7 +47,6 @@ Vector3 level_part(const Vector3& vector, const Vector3& down) {
 /// The horizontal unit vector in which a support on one side of the structure moves away from it.
 /// @return empty: the support lies around the structure, or below its centre
 std::optional<Vector3> direction_away(const RigidModel& model, int support, const Vector3& down) {
-  constexpr double one_side = 0.1;
   const Vector3 middle = middle_of_bodies(model);
   Vector3 sum = Vector3::Zero();
   double size = 0.0;
@@ -135,7 +140,6 @@ ConeProgram program_with_support(const RigidModel& model, int support, const Sup
 }
 
 ConeQuestion question_of_support(const RigidModel& model, double sign) {
-  constexpr double multiple_of_loads = 1e3;
   double load = 0.0;
   ConeQuestion question;
   question.load = model.steady;
@@ -146,7 +150,7 @@ ConeQuestion question_of_support(const RigidModel& model, double sign) {
   question.load.push_back(BodyVelocity::Zero());
   question.grows.assign(question.load.size(), BodyVelocity::Zero());
   question.grows.back()[0] = sign;
-  question.most = multiple_of_loads * std::max(load, 1.0);
+  question.most = unbounded_over_loads * std::max(load, 1.0);
   return question;
 }
 
@@ -155,8 +159,7 @@ bool boundless(const ConeQuestion& question, const ConeAnswer& answer) {
 }
 
 bool is_balanced(const ConeAnswer& answer) {
-  constexpr double residual = 1e-4;  // over the loads
-  return answer.status == ConeStatus::solved && answer.residual <= residual;
+  return answer.status == ConeStatus::solved && answer.residual <= balanced_residual;
 }
 
 std::vector<Vector3> forces_of(const RigidModel& model, const std::vector<Eigen::Vector3d>& in_frames) {

@@ -61,6 +61,10 @@ using SupportVelocity = std::function<Vector3(const RigidPoint& point)>;
 /// The load is -sign times the factor of the answer, and the support moves by `sign` in the dual motion.
 [[nodiscard]] ConeQuestion question_of_support(const RigidModel& model, double sign);
 
+/// Force over the loads that has no bound: smaller values mistake a structure that resists much for one that resists all,
+/// with larger ones programmes lose digits.
+inline constexpr double unbounded_over_loads = 1e3;
+
 /// True if the load has no bound: the structure at the support resists any compression.
 [[nodiscard]] bool boundless(const ConeQuestion& question, const ConeAnswer& answer);
 
