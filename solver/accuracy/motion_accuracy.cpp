@@ -1,6 +1,7 @@
 #include "solver/accuracy/motion_accuracy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -17,6 +18,26 @@ namespace {
 
 constexpr int test_interval = 32;           ///< steps
 constexpr double tests_of_analysis = 16.0;  ///< at least: few long steps may all be between two tests
+/// Of a step: a length that differs by less is the same one, rounded where times are sums.
+constexpr double same_length = 1e-6;
+/// Of the step in which an impact is placed within the accuracy: the shortest one after an impact. Shorter ones follow a
+/// motion whose place is already as uncertain as the impact.
+constexpr double shortest_after_impact = 1.0 / 8.0;
+/// Halvings after which an error that falls no faster than the step is noise, which does not add up.
+constexpr int most_halvings = 4;
+/// Of the allowed error: from a smaller one on twice the step is taken. A larger share is taken back by the next test more
+/// often. Steps after which the longer one is tested.
+constexpr double doubling_margin = 0.7;
+constexpr int steps_to_next_test = 4;
+/// Of the largest speed: contacts that change at a smaller one are settlements and not impacts.
+constexpr double impact_speed_share = 0.1;
+/// Steps of a pilot from one estimate of orders to the next, which costs as much as some steps.
+constexpr int order_interval = 16;
+
+/// Coarse pilots of rigid blocks: their steps, the difference of their largest values up to which they agree (larger ones
+/// hide vibrations), and the steps of a run above which they are used: fewer cost no more than the pilots.
+constexpr std::array coarse_steps = {16.0, 32.0};
+constexpr double pilots_agree = 0.2, many_steps = 64.0;
 
 /// True after as many steps, or as much time, as there may be between two tests.
 bool test_is_due(const MotionAccuracyState& state, double time_step, double end_time) {
@@ -60,8 +81,7 @@ std::optional<TriedStep> tried(Simulation& simulation, double step, int count, d
   bool whole = true;
   for (int k = 0; whole && k < count; ++k) {
     whole = simulation.step(end_time) == StepStatus::accepted;
-    // A length may be rounded where times are sums.
-    whole = whole && std::abs(simulation.report().step - step) <= 1e-6 * step;
+    whole = whole && std::abs(simulation.report().step - step) <= same_length * step;
   }
   std::optional<TriedStep> end;
   if (whole) end = TriedStep{simulation.states(), goals(simulation), contact_marks(simulation)};
@@ -119,7 +139,7 @@ class StepTests {
         power_(std::exp2(order_of(simulation.system().settings().integrator))),
         longest_(std::min(request.longest_step, impact_step(request, state.scales))),
         shortest_(state.impacts > 0 && state.scales.impact_speed > 0.0
-                      ? impact_step(request, state.scales) / 8.0
+                      ? shortest_after_impact * impact_step(request, state.scales)
                       : 0.0),
         marks_(contact_marks(simulation)),
         islands_(blocks_in_touch(simulation)) {}
@@ -171,7 +191,6 @@ class StepTests {
   }
 
   void halve(double step, double error) {
-    constexpr int most_halvings = 4;
     double shorter = step, left = error;
     for (int k = 0; k < most_halvings && left > allowed(shorter) && 0.5 * shorter >= shortest_; ++k) {
       const std::optional<double> next = local_error(0.5 * shorter);
@@ -193,11 +212,9 @@ class StepTests {
 
   void double_if_enough(double step, double error) {
     // Twice the step has 2^(p + 1) times the error and twice the share.
-    constexpr double margin = 0.7;
-    constexpr int soon = 4;
-    if (power_ * error > margin * allowed(step) || 2.0 * step > longest_) return;
+    if (power_ * error > doubling_margin * allowed(step) || 2.0 * step > longest_) return;
     take(2.0 * step, 2.0 * power_ * error);
-    state_.since_test = test_interval - soon;
+    state_.since_test = test_interval - steps_to_next_test;
   }
 
   Simulation& simulation_;
@@ -235,10 +252,9 @@ class PilotRecord {
   }
 
   [[nodiscard]] PilotRun result() const {
-    constexpr double at_speed = 0.1;
     PilotRun result = run_;
     const auto impact = std::find_if(changes_.begin(), changes_.end(), [this](const Change& change) {
-      return change.speed > at_speed * fastest_;
+      return change.speed > impact_speed_share * fastest_;
     });
     if (impact == changes_.end()) return result;
     result.round = impact->before;
@@ -266,7 +282,6 @@ class PilotRecord {
     }
     run_.scales.energy = std::max(run_.scales.energy, sum);
     note_goals();
-    constexpr int order_interval = 16;  // an estimate costs as much as some steps
     if (simulation_.steps() % order_interval != 0) return;
     for (const OrderError& error : order_errors(simulation_))
       run_.round.lacks[at(error.block)] = std::max(run_.round.lacks[at(error.block)], error.lacks);
@@ -312,8 +327,7 @@ std::optional<PilotRun> pilot_in_steps(Simulation& simulation, double end_time, 
 
 /// True if two pilots without impacts have found nearly the same largest values.
 bool agree(const MotionScales& a, const MotionScales& b) {
-  constexpr double tolerance = 0.2;
-  const auto near = [](double x, double y) { return std::abs(x - y) <= tolerance * std::max(x, y); };
+  const auto near = [](double x, double y) { return std::abs(x - y) <= pilots_agree * std::max(x, y); };
   return a.impact_speed == 0.0 && b.impact_speed == 0.0 && near(a.energy, b.energy) &&
          near(a.displacement, b.displacement) &&
          std::equal(a.goals.begin(), a.goals.end(), b.goals.begin(), near) &&
@@ -332,12 +346,12 @@ bool moves_plainly(const Simulation& simulation, double end_time) {
   return true;
 }
 
-/// Pilots of 16 and 32 steps, enough for blocks without vibrations and orders. @return the pilots; fewer than two: ended
+/// Pilots of few steps, enough for blocks without vibrations and orders. @return the pilots; fewer than two: ended
 std::vector<PilotRun> coarse_pilots(Simulation& simulation, double end_time, const GoalValues& goals,
                                     const std::function<bool()>& goes_on) {
   const double given = simulation.system().settings().time_step;
   std::vector<PilotRun> pilots;
-  for (const double count : {16.0, 32.0}) {
+  for (const double count : coarse_steps) {
     simulation.set_time_step(end_time / count);
     const auto pilot = pilot_in_steps(simulation, end_time, goals, goes_on);
     if (!pilot) break;
@@ -351,7 +365,6 @@ std::vector<PilotRun> coarse_pilots(Simulation& simulation, double end_time, con
 
 std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const GoalValues& goals,
                                   const std::function<bool()>& goes_on) {
-  constexpr double many_steps = 64.0;
   if (moves_plainly(simulation, end_time) &&
       end_time > many_steps * simulation.system().settings().time_step) {
     const std::vector<PilotRun> coarse = coarse_pilots(simulation, end_time, goals, goes_on);

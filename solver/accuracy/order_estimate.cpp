@@ -15,6 +15,17 @@ namespace {
 
 constexpr double unknown_error = std::numeric_limits<double>::infinity();
 
+/// Errors of goals over rounds (notes/accuracy.md). Ratio of a change to that two rounds before: a smaller one may be chance
+/// and would promise too little error, the sum of a slower series has no meaning; one for two rounds, which know none.
+constexpr double least_ratio = 1.0 / 3.0, largest_ratio = 0.8, unknown_ratio = 0.5;
+/// Exponent of the order by which the error at a corner or clamp falls: a larger one promises less error there than is left.
+constexpr double corner_exponent = 3.0;
+/// Orders and exponent from which on errors fall too slowly to be met (slow_error_at): lower ones end a choice early.
+constexpr int least_slow_order = 6;
+constexpr double fast_exponent = 3.5;
+/// Lack of a block over that of the round before, from which on it hardly falls.
+constexpr double slow_lack = 0.5;
+
 double sum_over(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -51,8 +62,6 @@ double rest_over_change(int m, int n, double exponent) {
   return 1.0 / (std::pow(static_cast<double>(n) / m, exponent) - 1.0);
 }
 
-constexpr double corner_exponent = 3.0;
-
 /// Highest chosen one; 0: unknown.
 int highest_order(const AccuracyRound& round) {
   return round.orders.empty() ? 0 : *std::max_element(round.orders.begin(), round.orders.end());
@@ -61,7 +70,6 @@ int highest_order(const AccuracyRound& round) {
 /// Estimated distance of a goal to its limit. The ratio of two changes is bounded from below, as a change that is small by
 /// chance is not the end, and from above, where the sum of what is left would have no meaning.
 double distance_to_limit(std::span<const AccuracyRound> rounds, std::size_t goal) {
-  constexpr double least_ratio = 1.0 / 3.0, largest_ratio = 0.8, unknown_ratio = 0.5;
   const std::size_t last = rounds.size() - 1;
   const double change = change_over_two(rounds, last, goal);
   const int n = highest_order(rounds[last]);
@@ -95,15 +103,13 @@ double order_error_of(const std::vector<AccuracyRound>& all, std::size_t index, 
 }
 
 double slow_error_at(const std::vector<AccuracyRound>& all, std::size_t index, const Goal& goal, int order) {
-  constexpr int least_order = 6;
-  constexpr double fast_exponent = 3.5;
   const std::span<const AccuracyRound> rounds = from_deformed(all);
   const std::optional<double> ratio = ratio_of_changes(rounds, index);
   if (!ratio) return 0.0;
   const std::size_t last = rounds.size() - 1;
   const int n = highest_order(rounds[last]), m = highest_order(rounds[last - 2]);
   const int before = highest_order(rounds[last - 4]);
-  if (n < least_order || m >= n || before >= m || before < 1) return 0.0;
+  if (n < least_slow_order || m >= n || before >= m || before < 1) return 0.0;
   const auto error = [](int k) { return std::pow(k, -fast_exponent); };
   if (*ratio < (error(m) - error(n)) / (error(before) - error(m))) return 0.0;
   const double fall = std::pow(static_cast<double>(n) / order, corner_exponent);
@@ -118,7 +124,7 @@ int slow_block_of(const std::vector<AccuracyRound>& rounds) {
   const auto block = static_cast<std::size_t>(worst - last.lacks.begin());
   // A block that has kept its order has kept its lack.
   if (last.of_changes && last.orders[block] == before.orders[block]) return -1;
-  return *worst > 0.0 && *worst > 0.5 * before.lacks[block] ? static_cast<int>(block) : -1;
+  return *worst > 0.0 && *worst > slow_lack * before.lacks[block] ? static_cast<int>(block) : -1;
 }
 
 void take_lacks_of_changes(const Simulation& simulation, const std::vector<AccuracyRound>& rounds,
@@ -133,11 +139,11 @@ void take_lacks_of_changes(const Simulation& simulation, const std::vector<Accur
     const int risen = now.orders[k] - earlier.orders[k];
     if (risen == 0) continue;
     const Eigen::MatrixX3d force = block.elastic(position).force - block.elastic(before).force;
-    const double lack = 0.5 * std::abs(force.cwiseProduct(position - before).sum());
+    const double energy = 0.5 * std::abs(force.cwiseProduct(position - before).sum());
     if (risen >= 2)
-      now.lacks[k] = lack;
+      now.lacks[k] = energy;
     else if (now.lacks[k] >= 0.0)
-      now.lacks[k] = std::max(lack, now.lacks[k]);
+      now.lacks[k] = std::max(energy, now.lacks[k]);
   }
 }
 

@@ -20,6 +20,15 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
+/// Of the largest lack: blocks below it hardly change a goal, and keep their order. Larger shares need more rounds, smaller
+/// ones raise blocks without effect.
+constexpr double least_lack = 0.03;
+/// Rounds of sub-faces: 4^4 in the chord are 4^4 times as many of them.
+constexpr std::size_t most_sub_face_rounds = 4;
+/// Error that the highest order would still have, over the accuracy, above which a choice ends: smaller values give up
+/// where the estimate is too large, larger ones try orders that hardly help.
+constexpr double out_of_reach = 3.0;
+
 /// Rounds whose lacks come from the next orders; later ones have two changes.
 constexpr std::size_t rounds_with_next_orders = 2;
 
@@ -106,18 +115,15 @@ class OrderChoice {
 
   /// Blocks that get the next order; empty: orders suffice, or cannot be raised.
   [[nodiscard]] std::vector<int> blocks() const {
-    // Blocks whose lacks are much smaller than the largest one hardly change a goal.
-    constexpr double of_largest = 0.03;
     double largest = 0.0;
     for (const int block : raisable_) largest = std::max(largest, last_.lacks[at(block)]);
     std::vector<int> chosen;
     for (const int block : raisable_) {
       const double lack = last_.lacks[at(block)];
-      const bool lacks_much =
-          has_goals_ || lack < 0.0
-              ? !goals_met_ && (lack < 0.0 || (lack > 0.0 && lack >= of_largest * largest))
-              : lack > request_.accuracy * std::max(last_.energies[at(block)], mean_energy_);
-      if (lacks_much) chosen.push_back(block);
+      const bool rises = has_goals_ || lack < 0.0
+                             ? !goals_met_ && (lack < 0.0 || (lack > 0.0 && lack >= least_lack * largest))
+                             : lack > request_.accuracy * std::max(last_.energies[at(block)], mean_energy_);
+      if (rises) chosen.push_back(block);
     }
     return chosen;
   }
@@ -174,8 +180,7 @@ bool has_curved_contacts(const Simulation& simulation) {
 /// The last chord tolerance suffices, or more sub-faces are of no use.
 bool sub_faces_suffice(const AccuracyRequest& request, const std::vector<Goal>& goals,
                        const AccuracyRounds& rounds) {
-  constexpr std::size_t most = 4;  // 4^4 in the chord are 4^4 times as many sub-faces
-  if (rounds.sub_faces.size() >= most) return true;
+  if (rounds.sub_faces.size() >= most_sub_face_rounds) return true;
   for (std::size_t k = 0; k < goals.size(); ++k)
     if (sub_face_error_of(rounds, k, goals[k]) > request.accuracy) return false;
   return !goals.empty() || sub_face_error_of_energy(rounds) <= request.accuracy;
@@ -185,11 +190,10 @@ bool sub_faces_suffice(const AccuracyRequest& request, const std::vector<Goal>& 
 /// accuracy. @return the largest of them, or 0
 double error_out_of_reach(const AccuracyRequest& request, const std::vector<Goal>& goals,
                           const std::vector<AccuracyRound>& rounds) {
-  constexpr double far_above = 3.0;
   double largest = 0.0;
   for (std::size_t k = 0; k < goals.size(); ++k)
     largest = std::max(largest, slow_error_at(rounds, k, goals[k], largest_chosen_order));
-  return largest > far_above * request.accuracy ? largest : 0.0;
+  return largest > out_of_reach * request.accuracy ? largest : 0.0;
 }
 
 }  // namespace

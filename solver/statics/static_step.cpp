@@ -22,6 +22,12 @@
 namespace ashlar {
 namespace {
 
+/// Inertia of iterations, as factors on the last one: of an attempt without a solution or with too large a motion (by its
+/// ratio to the allowed one with a margin, within limits), and after an iteration that has converged. Faster growth and
+/// slower decrease need more iterations, the reverse fails more often.
+constexpr double inertia_growth = 10.0, inertia_decrease = 0.1;
+constexpr double motion_margin = 1.1, least_raise = 2.0, most_raise = 1e4;
+
 TimeScheme static_scheme(double inertia) {
   TimeScheme scheme;
   scheme.inertia = inertia;
@@ -138,7 +144,7 @@ class StaticIteration {
     for (int cuts = 0; cuts <= system_.settings().statics.cuts;
          cuts += std::exchange(has_other_neighbours_, false) ? 0 : 1) {
       const TimeScheme scheme = static_scheme(std::max(state_.statics.inertia, least_));
-      double raise = 10.0;
+      double raise = inertia_growth;
       if (const auto status = attempt(scheme, raise)) return *status;
       state_.statics.inertia = raise * scheme.inertia;
       cut_ = cut_ || raise > 1.0;
@@ -183,7 +189,7 @@ class StaticIteration {
     }
     const double motion = most_of_run(system_, largest_motion(problem_));
     if (motion > system_.settings().statics.motion) {
-      raise = std::clamp(1.1 * motion / system_.settings().statics.motion, 2.0, 1e4);
+      raise = std::clamp(motion_margin * motion / system_.settings().statics.motion, least_raise, most_raise);
       return std::nullopt;
     }
     if (needs_other_neighbours()) return again(raise);
@@ -234,7 +240,7 @@ class StaticIteration {
       return 1.0;
     }
     // Rolling blocks touch again and again shortly before their last place of contact.
-    const double raise = std::max(1.0 / share, cut_to_touch_ ? 2.0 : 1.0);
+    const double raise = std::max(1.0 / share, cut_to_touch_ ? least_raise : 1.0);
     cut_to_touch_ = true;
     return raise;
   }
@@ -262,18 +268,18 @@ class StaticIteration {
     // Blocks that move although no bond can fail need no other iteration.
     if (statics.freezes_failure && !statics.moving && (balanced || has_gone_far())) let_bonds_go(state_);
     if (!converged) {
-      statics.inertia = 10.0 * scheme.inertia;
+      statics.inertia = inertia_growth * scheme.inertia;
     } else if (!cut_) {
-      statics.inertia = std::max(0.1 * scheme.inertia, least_);
+      statics.inertia = std::max(inertia_decrease * scheme.inertia, least_);
     }
     const bool ruptured = (balanced || has_gone_far()) && rupture_bolts(system_, state_);
     const bool still =
         balanced && !ruptured && (scheme.inertia <= least_ || least_ == 0.0) &&
         (before == contact_states(system_, state_.report) || motion <= system_.settings().statics.stillness);
     if (still && !repeat) ++statics.multiplier_iterations;
-    const bool settled =
+    const bool at_rest =
         still && (repeat || statics.multiplier_iterations > system_.settings().statics.multiplier_iterations);
-    statics.still_iterations = settled ? statics.still_iterations + 1 : 0;
+    statics.still_iterations = at_rest ? statics.still_iterations + 1 : 0;
     statics.balanced = statics.still_iterations >= 2 || (back && !ruptured);
     // Iterations are audited after large motion, and roughly after the onset of motion; an equilibrium is audited
     // completely.
