@@ -14,10 +14,11 @@ class ProcessorWatch {
   ProcessorWatch& operator=(const ProcessorWatch&) = delete;
 
  private:
+  static constexpr double nanosecond = 1e-9;  ///< s
   [[nodiscard]] static double now() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    return static_cast<double>(time.tv_sec) + nanosecond * static_cast<double>(time.tv_nsec);
   }
 
   double& sum_;

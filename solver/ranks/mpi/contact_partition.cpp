@@ -18,6 +18,10 @@ extern "C" void SCOTCH_randomReset(void);
 namespace ashlar {
 namespace {
 
+/// Scotch adds weights as 32-bit integers: their largest sum, and the fractions of an unknown that they tell, which are
+/// precise enough.
+constexpr double largest_sum_of_weights = 1e9, fractions_of_unknown = 1e3;
+
 /// A block and the number of its neighbours, which follow in another list.
 struct ToldBlock {
   int block;
@@ -78,10 +82,9 @@ PetscInt* petsc_array(const std::vector<PetscInt>& values) {
   return array;
 }
 
-/// Scotch adds weights as 32-bit integers. A thousandth of an unknown is precise enough.
 std::vector<PetscInt> whole_weights(const std::vector<double>& weights) {
-  constexpr double most = 1e9, finest = 1e3;
-  const double scale = std::min(finest, most / std::accumulate(weights.begin(), weights.end(), 0.0));
+  const double scale = std::min(
+      fractions_of_unknown, largest_sum_of_weights / std::accumulate(weights.begin(), weights.end(), 0.0));
   std::vector<PetscInt> whole;
   whole.reserve(weights.size());
   for (const double weight : weights)

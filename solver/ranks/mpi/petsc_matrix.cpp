@@ -12,6 +12,10 @@
 namespace ashlar {
 namespace {
 
+/// Length of a direction that is left beside the others, of its own, at most, if it depends on them: larger values leave out
+/// motions of slender blocks, smaller ones add rounding errors as directions.
+constexpr double dependent_share = 1e-8;
+
 std::vector<int> sizes_of(const std::vector<BodyRows>& rows) {
   std::vector<int> sizes;
   sizes.reserve(rows.size());
@@ -38,8 +42,7 @@ void add_direction(std::vector<Vec>& directions, Vec direction) {
     }
     check_petsc(VecNorm(direction, NORM_2, &after));
   }
-  constexpr double dependent = 1e-8;
-  if (!(after > dependent * before)) {
+  if (!(after > dependent_share * before)) {
     check_petsc(VecDestroy(&direction));
     return;
   }

@@ -16,6 +16,10 @@ constexpr PetscInt mumps_spare_memory = 14;     // ICNTL: percent of its estimat
 constexpr PetscInt mumps_negative_pivots = 12;  // INFOG
 constexpr PetscInt mumps_entries = 29;          // INFOG: of the factor; negative: millions of them
 constexpr PetscInt mumps_operations = 1;        // RINFOG: of the elimination, estimated
+constexpr double mumps_million = 1e6;           // entries that a negative number of them counts
+/// Spare memory of a factor in percent of its estimate: at first and at most. A factor that needs more is made again with
+/// twice as much.
+constexpr PetscInt first_spare_memory = 30, most_spare_memory = 500;
 
 constexpr PetscInt most_petsc_iterations = 3000;
 
@@ -110,11 +114,10 @@ void PetscMethod::choose(std::int64_t most_factored) {
 
 /// MUMPS sees only while it factorises how much memory pivots and messages need beyond its estimate.
 PCFailedReason PetscMethod::factorize() {
-  constexpr PetscInt first = 30, most = 500;
   DefaultOptions defaults(prefix_);
   // Right sides are gathered: a sixth less time for a solution.
   if (by_mumps_) defaults.set("mat_mumps_icntl_20", "0");
-  for (PetscInt spare = first;; spare *= 2) {
+  for (PetscInt spare = first_spare_memory;; spare *= 2) {
     if (by_mumps_) {
       Mat factor = nullptr;
       check_petsc(PCFactorSetUpMatSolverType(preconditioner_));
@@ -124,7 +127,7 @@ PCFailedReason PetscMethod::factorize() {
     check_petsc(KSPSetUp(solver_));
     PCFailedReason reason = PC_NOERROR;
     check_petsc(PCGetFailedReason(preconditioner_, &reason));
-    if (!by_mumps_ || reason != PC_FACTOR_OUTMEMORY || spare > most) return reason;
+    if (!by_mumps_ || reason != PC_FACTOR_OUTMEMORY || spare > most_spare_memory) return reason;
     check_petsc(PCReset(preconditioner_));
   }
 }
@@ -154,7 +157,8 @@ void PetscMethod::count_cost(Mat factor) {
   PetscReal operations = 0.0;
   check_petsc(MatMumpsGetInfog(factor, mumps_entries, &entries));
   check_petsc(MatMumpsGetRinfog(factor, mumps_operations, &operations));
-  const double all = entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries);
+  const double all =
+      entries < 0 ? -mumps_million * static_cast<double>(entries) : static_cast<double>(entries);
   cost_in_solves_ = all > 0.0 ? operations / (4.0 * all) : 0.0;
 }
 
