@@ -43,6 +43,9 @@ concept ListsItsMembers = requires(Archive& archive, T& value) {
   visit_members(archive, value);
 };
 
+/// Bytes that a writer collects before it passes them to its sink: fewer need more calls, more need more memory.
+inline constexpr std::size_t bytes_at_a_time = std::size_t{1} << 16U;
+
 /// Converts values to bytes, in a string or streamed to a sink, so that the data need not be in memory twice.
 class ByteWriter {
  public:
@@ -114,9 +117,8 @@ class ByteWriter {
   }
   void write_size(std::size_t size) { write(static_cast<std::uint64_t>(size)); }
   void append(const void* data, std::size_t size) {
-    constexpr std::size_t many = 1U << 16U;
     bytes_.append(static_cast<const char*>(data), size);
-    if (sink_ && bytes_.size() >= many) flush();
+    if (sink_ && bytes_.size() >= bytes_at_a_time) flush();
   }
 
   Sink sink_;
@@ -227,11 +229,13 @@ class ByteReader {
   std::string_view left_;
 };
 
+/// FNV-1a of 64 bits.
+inline constexpr std::uint64_t hash_offset = 14695981039346656037ULL, hash_prime = 1099511628211ULL;
+
 /// FNV-1a hash of bytes. @param start a former hash to continue
-[[nodiscard]] constexpr std::uint64_t hash_bytes(std::string_view bytes,
-                                                 std::uint64_t start = 14695981039346656037ULL) {
+[[nodiscard]] constexpr std::uint64_t hash_bytes(std::string_view bytes, std::uint64_t start = hash_offset) {
   std::uint64_t hash = start;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * hash_prime;
   return hash;
 }
 

@@ -12,6 +12,11 @@ namespace {
 
 using Eigen::Index;
 
+/// Rounding errors of a coordinate of a point: larger values accept larger residuals of bolts.
+constexpr double operations_of_coordinate = 4.0;
+/// Turn of the rows in a step from which on they are evaluated again, rad: a smaller one turns forces by rounding only.
+constexpr double least_turn_of_rows = 1e-8;
+
 /// The points as placed, in blocks that are not deformed.
 BoltPlaces as_placed(const BoltShape& shape) {
   BoltPlaces places{Eigen::Matrix3Xd(3, shape.point_count()),
@@ -146,19 +151,19 @@ void StepBolt::respond(const std::vector<const Eigen::VectorXd*>& changes, bool 
 }
 
 double StepBolt::force_rounding(const StepBoltResponse& response) const {
-  constexpr double operations = 4.0;  // on each coordinate of a point
   double longest = 0.0;
   for (const Eigen::MatrixXd& rows : rows_)
     if (rows.cols() > 0) longest = std::max(longest, rows.rowwise().norm().maxCoeff());
-  return operations * std::numeric_limits<double>::epsilon() * size_ * response.tangent.norm() * longest;
+  return operations_of_coordinate * std::numeric_limits<double>::epsilon() * size_ * response.tangent.norm() *
+         longest;
 }
 
 bool StepBolt::needs_following(const PositionOfBlock& middle, const PositionOfBlock& end,
                                const std::vector<const Eigen::VectorXd*>& changes, double tolerance) const {
-  constexpr double turn = 1e-8;  // of the rows: rad
   const BoltShape& shape = bolt_->chain.shape();
   const double error = (bolt_deformation(shape, places_at(end)) - deformation(changes)).cwiseAbs().maxCoeff();
-  return error > tolerance || (bolt_rows(shape, places_at(middle)) - to_points_).cwiseAbs().maxCoeff() > turn;
+  return error > tolerance ||
+         (bolt_rows(shape, places_at(middle)) - to_points_).cwiseAbs().maxCoeff() > least_turn_of_rows;
 }
 
 void StepBolt::follow(const PositionOfBlock& middle, const PositionOfBlock& end,

@@ -18,6 +18,9 @@
 namespace ashlar {
 namespace {
 
+/// Gap of a tie of an added block, of the search distance: larger ones are refused, as the tie would begin with stress.
+constexpr double allowed_tie_gap = 1e-3;
+
 /// True if the snapshot fits the blocks of this process: it has states with these numbers of functions.
 bool fits(const BlockSystem& system, const RunState& state, const SimulationSnapshot& end,
           const std::vector<bool>& was_absent) {
@@ -41,8 +44,6 @@ struct StrainedTie {
 /// The first one of this process. Ties of added blocks to others are relative to the placed blocks.
 StrainedTie strained_tie(const BlockSystem& system, const RunState& state,
                          const std::vector<bool>& was_absent) {
-  // Of the search distance: a tie of this gap has hardly any stress.
-  constexpr double allowed = 1e-3;
   const std::vector<BlockModel>& blocks = system.blocks();
   for (const TiedBlocks& tied : system.ties()) {
     if (was_absent[at(tied.a)] == was_absent[at(tied.b)] || !system.present(tied.a) ||
@@ -51,7 +52,7 @@ StrainedTie strained_tie(const BlockSystem& system, const RunState& state,
     const Eigen::MatrixX3d gap =
         tied.tie->a * state.states[at(tied.a)].position - tied.tie->b * state.states[at(tied.b)].position;
     const double mean = gap.norm() / std::sqrt(tied.tie->area);
-    if (!(mean > allowed * system.settings().contact_distance)) continue;
+    if (!(mean > allowed_tie_gap * system.settings().contact_distance)) continue;
     const auto [added, other] =
         was_absent[at(tied.a)] ? std::array{tied.a, tied.b} : std::array{tied.b, tied.a};
     return {{tied.a, tied.b},

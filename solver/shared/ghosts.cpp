@@ -23,6 +23,9 @@ namespace {
 
 /// Of the mean size of blocks: with a larger margin ghosts are more, and found less often.
 constexpr double least_margin = 0.05;
+/// Relative to the lengths of a solid: areas and directions of its faces that differ by less are equal, as in
+/// contact_finder.cpp. Larger values would let ranks order boxes along another face than one process does.
+constexpr double equal_faces = 1e-9;
 /// Expected motions of a step in the margin.
 constexpr double steps_in_margin = 4.0;
 
@@ -58,15 +61,14 @@ struct LargestFace {
 
 /// Tells all ranks the places of all undeformed blocks.
 void exchange_places(BlockShare& share, const std::vector<BlockModel>& blocks) {
-  constexpr double rounding = 1e-9;  // as ContactFinder
   std::vector<PlacedVolume> own;
   LargestFace largest;
   for (const int k : share.own()) {
     const BlockModel& block = blocks[at(k)];
     own.push_back({block.basis().centroid(), block.basis().volume()});
-    const double area = largest_face_area(block.solid(), rounding);
-    if (area > (1.0 + rounding) * largest.area)
-      largest = {k, area, axes_along_largest_face({&block.solid()}, rounding)};
+    const double area = largest_face_area(block.solid(), equal_faces);
+    if (area > (1.0 + equal_faces) * largest.area)
+      largest = {k, area, axes_along_largest_face({&block.solid()}, equal_faces)};
   }
   std::vector<PlacedVolume> places(blocks.size());
   const std::vector<std::vector<PlacedVolume>> of_ranks = values_of_ranks(share.ranks(), own);
@@ -79,7 +81,7 @@ void exchange_places(BlockShare& share, const std::vector<BlockModel>& blocks) {
   std::sort(faces.begin(), faces.end(), [](const auto& x, const auto& y) { return x.block < y.block; });
   LargestFace most = faces.front();
   for (const LargestFace& face : faces)
-    if (face.area > (1.0 + rounding) * most.area) most = face;
+    if (face.area > (1.0 + equal_faces) * most.area) most = face;
   share.set_places(std::move(places), most.axes);
 }
 

@@ -5,6 +5,13 @@
 #include <limits>
 
 namespace ashlar {
+namespace {
+
+/// Of the largest eigenvalue of the stiffness: smaller ones are rigid motions with rounding errors. A larger value would
+/// leave out slow vibrations of slender blocks.
+constexpr double rigid_motion_share = 1e-9;
+
+}  // namespace
 
 double slowest_vibration(const BlockModel& block) {
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -12,7 +19,7 @@ double slowest_vibration(const BlockModel& block) {
   // Functions of a block are orthonormal in its volume: the mass is the density times the unit matrix.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
       block.tangent(Eigen::Matrix3d(Eigen::Matrix3d::Identity())), Eigen::EigenvaluesOnly);
-  const double rounding = 1e-9 * modes.eigenvalues().maxCoeff();
+  const double rounding = rigid_motion_share * modes.eigenvalues().maxCoeff();
   for (const double value : modes.eigenvalues())
     if (value > rounding) return std::sqrt(value / block.material().density);
   return never;

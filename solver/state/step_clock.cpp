@@ -15,6 +15,9 @@ namespace {
 /// product are rounded once.
 constexpr std::int64_t largest_exact = std::int64_t{1} << 53;
 constexpr int largest_power = 22;
+/// Difference of times that are equal, at least in time steps, and in rounding errors of the end: larger values leave out
+/// the last short step of a run, smaller ones take one of no length.
+constexpr double least_time_share = 1e-9, rounding_errors_of_time = 4.0;
 
 struct Decimal {
   std::int64_t digits = 0;
@@ -99,10 +102,8 @@ void StepClock::advance(double length) {
 }
 
 double time_rounding(double time_step, double end_time) {
-  constexpr double least_share = 1e-9;
-  constexpr double ulps = 4.0;
-  return std::max(least_share * time_step,
-                  ulps * std::numeric_limits<double>::epsilon() * std::abs(end_time));
+  return std::max(least_time_share * time_step,
+                  rounding_errors_of_time * std::numeric_limits<double>::epsilon() * std::abs(end_time));
 }
 
 }  // namespace ashlar

@@ -8,6 +8,13 @@
 namespace ashlar {
 namespace {
 
+/// Limits of speeds in g dt (notes/restitution.md). Closing: a block that is placed on another one without its weight closes
+/// by 1 in its first step; rounding shall not decide whether that is an impact. Rebound: it would end within a step.
+constexpr double steps_of_fall = 1.5, steps_of_rise = 0.5;
+/// A point on the outline of the compressed part of a joint has no gap: at most this one, of the limit, of which a step that
+/// was cut for a touch leaves half. It begins an impact from this share of the fastest closing speed of its blocks on.
+constexpr double gap_on_outline = 1e-2, slow_on_outline = 0.5;
+
 /// True if a joint transmits compression at the start of the step.
 bool bears(const ContactPair& pair) {
   for (std::size_t k = 0; k < pair.points().size(); ++k)
@@ -18,9 +25,6 @@ bool bears(const ContactPair& pair) {
 }  // namespace
 
 ImpactLimits limits_of(const SimulationSettings& settings, double time) {
-  // A block that is placed on another one without its weight closes by g dt in its first step: rounding shall not decide
-  // whether that is an impact.
-  constexpr double steps_of_fall = 1.5, steps_of_rise = 0.5;
   const double in_a_step = settings.gravity_at(time).norm() * settings.time_step;
   return {settings.search.passing_share * settings.contact_distance, steps_of_fall * in_a_step,
           steps_of_rise * in_a_step};
@@ -58,12 +62,10 @@ double ClosingSpeeds::fastest_of(const ContactPair& pair) const {
 bool ClosingSpeeds::begins(const ContactPair& pair, std::size_t point, double velocity) const {
   if (!pair.restitution() || pair.holds(point) || pair.loaded(point) || !(-velocity > limits_.speed))
     return false;
-  // The gap of a point on the outline of the compressed part is zero. A step that was cut for a touch leaves half of the
-  // limit.
-  constexpr double on_outline = 1e-2, slow = 0.5;
   const double gap = pair.start_gap(point);
   if (gap > limits_.gap) return false;
-  return gap > on_outline * limits_.gap || !bears(pair) || -velocity >= slow * fastest_of(pair);
+  return gap > gap_on_outline * limits_.gap || !bears(pair) ||
+         -velocity >= slow_on_outline * fastest_of(pair);
 }
 
 bool ClosingSpeeds::takes_part(const ContactPair& pair, std::size_t point, double velocity) const {

@@ -10,6 +10,10 @@
 
 namespace ashlar {
 
+/// Gap of the fastest point that takes part in an impact of others, of the largest one, at most: larger values let points
+/// take part that are far from touching, smaller ones stop a face at a pivot inside it (notes/restitution.md).
+inline constexpr double moment_over_gap = 10.0;
+
 /// Limits of an impact.
 struct ImpactLimits {
   double gap;      ///< largest of points that are about to touch, m
@@ -17,7 +21,7 @@ struct ImpactLimits {
   double rebound;  ///< that gravity takes in half a step, m/s: slower points do not rebound
 
   /// Largest gap of the fastest point that takes part in an impact of others, m.
-  [[nodiscard]] double moment() const { return 10.0 * gap; }
+  [[nodiscard]] double moment() const { return moment_over_gap * gap; }
 };
 
 [[nodiscard]] ImpactLimits limits_of(const SimulationSettings& settings, double time);

@@ -11,6 +11,10 @@ namespace {
 using Eigen::Vector3d;
 using SplitImpulses = std::vector<Vector3d>;
 
+/// Iterations from one residual to the next, and from one change of the penalty to the next: a change needs a new factor,
+/// and the iterations after it forget the old one first.
+constexpr int between_residuals = 10, between_penalties = 20;
+
 class ImpactSplitting {
  public:
   explicit ImpactSplitting(const ImpactBodies& bodies) : bodies_(bodies), points_(bodies.points()) {
@@ -69,8 +73,10 @@ class ImpactSplitting {
 
 FoundImpulses split_impulses(const ImpactBodies& bodies, double accuracy, int iterations) {
   ImpactSplitting splitting(bodies);
-  auto found = solve_by_splitting<SplitImpulses>(
-      splitting, {.passes = iterations, .between_checks = 10, .enough = accuracy, .between_changes = 20});
+  auto found = solve_by_splitting<SplitImpulses>(splitting, {.passes = iterations,
+                                                             .between_checks = between_residuals,
+                                                             .enough = accuracy,
+                                                             .between_changes = between_penalties});
   return {std::move(found.best), found.residual};
 }
 

@@ -14,6 +14,14 @@ using Eigen::VectorXd;
 constexpr double step_accuracy = 1e-12;  ///< of a solution by Newton's method, of the speed of the points
 constexpr int passes_without_gain = 8;   ///< that end the passes
 constexpr double gain = 0.5;
+/// Newton's method in a pass with shifts of the last one, a convex function, and with its own, which may fail: iterations,
+/// and halvings of a step.
+constexpr int shifted_iterations = 60, shifted_halvings = 40;
+constexpr int coulomb_iterations = 15, coulomb_halvings = 20;
+/// Decrease that ends the halvings of a step, of that of the linear model: larger values shorten good steps.
+constexpr double step_decrease = 1e-4;
+/// Rounding error of the potential, relative to it.
+constexpr double potential_rounding = 1e-14;
 
 class ProximalPasses {
  public:
@@ -71,11 +79,9 @@ class ProximalPasses {
   /// The pass with shifts of the last one.
   void solve_shifted() {
     for (std::size_t k = 0; k < bodies_.points(); ++k) shifts_[k] = shift_of(k, bodies_.after(k, changes_));
-    constexpr int most = 60, halvings = 40;
-    constexpr double least_decrease = 1e-4, rounding = 1e-14;
     std::vector<Vector3d> forces(bodies_.points(), Vector3d::Zero());
     std::vector<Matrix3d> slopes(bodies_.points(), Matrix3d::Zero());
-    for (int k = 0; k < most; ++k) {
+    for (int k = 0; k < shifted_iterations; ++k) {
       for (std::size_t point = 0; point < bodies_.points(); ++point) {
         if (!is_held(point)) continue;
         const LawfulImpulse lawful = impulse_of(point, bodies_.after(point, changes_), shifts_[point]);
@@ -85,9 +91,9 @@ class ProximalPasses {
       const VectorXd gradient = bodies_.inertia().cwiseProduct(changes_) - bodies_.on_bodies(forces);
       VectorXd step = -bodies_.factor(slopes).solve(gradient);
       const double decrease = -gradient.dot(step), before = potential(changes_);
-      for (int n = 0; n < halvings; ++n, step *= 0.5) {
-        const double least = least_decrease * std::ldexp(decrease, -n);
-        if (potential(changes_ + step) <= before - least + rounding * before) break;
+      for (int n = 0; n < shifted_halvings; ++n, step *= 0.5) {
+        const double least = step_decrease * std::ldexp(decrease, -n);
+        if (potential(changes_ + step) <= before - least + potential_rounding * before) break;
       }
       changes_ += step;
       if (is_small(step)) break;
@@ -120,22 +126,20 @@ class ProximalPasses {
 
   /// The pass with its own shifts. @return false if Newton's method fails: nothing has changed then
   bool solve_coulomb() {
-    constexpr int most = 15, halvings = 20;
-    constexpr double least_decrease = 1e-4;
     VectorXd z = changes_;
     std::vector<Vector3d> forces(bodies_.points(), Vector3d::Zero());
     std::vector<Matrix3d> slopes(bodies_.points(), Matrix3d::Zero());
-    for (int k = 0; k < most; ++k) {
+    for (int k = 0; k < coulomb_iterations; ++k) {
       const VectorXd residual = coulomb_residual(z, forces, &slopes);
       VectorXd step = -bodies_.solve(slopes, residual);
       if (!step.allFinite()) return false;
       const double before = size_of(residual);
       int n = 0;
-      for (double share = 1.0; n < halvings; ++n, share *= 0.5, step *= 0.5)
-        if (size_of(coulomb_residual(z + step, forces, nullptr)) <= (1.0 - least_decrease * share) * before)
+      for (double share = 1.0; n < coulomb_halvings; ++n, share *= 0.5, step *= 0.5)
+        if (size_of(coulomb_residual(z + step, forces, nullptr)) <= (1.0 - step_decrease * share) * before)
           break;
       const bool ends = is_small(step);
-      if (n == halvings && !ends) return false;
+      if (n == coulomb_halvings && !ends) return false;
       z += step;
       if (!ends) continue;
       changes_ = z;

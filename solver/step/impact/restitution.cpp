@@ -12,6 +12,10 @@
 namespace ashlar {
 namespace {
 
+/// Predicted time of a touch, of the step, up to which it shortens the step: a later one has missed what turns or bends, and
+/// the step is halved.
+constexpr double shortens_step = 0.999;
+
 /// When a point is about to touch on free motion, and how fast.
 struct FirstTouch {
   double time;   ///< s
@@ -43,9 +47,9 @@ double first_impact(const StepProblem& problem, double step, const ContactPair& 
       velocities = motions.at_points(pair).row(0);
       rates = motions.accelerations(pair, problem);
     }
-    const double way = gap - 0.5 * limits.gap;
-    const FirstTouch straight{step * way / (gap - end[k]), (gap - end[k]) / step};
-    const FirstTouch touch = touch_of(way, velocities[k], rates[k]).value_or(straight);
+    const double distance = gap - 0.5 * limits.gap;
+    const FirstTouch straight{step * distance / (gap - end[k]), (gap - end[k]) / step};
+    const FirstTouch touch = touch_of(distance, velocities[k], rates[k]).value_or(straight);
     if (touch.speed > limits.speed) first = std::min(first, touch.time);
   }
   return first;
@@ -62,9 +66,7 @@ std::optional<double> share_until_impact(const BlockSystem& system, const RunSta
     if (pair.restitution()) first = std::min(first, first_impact(problem, step, pair, limits, motions));
   first = least_of_run(system, first);
   if (std::isinf(first)) return std::nullopt;
-  // A prediction that does not shorten the step has missed what turns or bends.
-  constexpr double shorter = 0.999;
-  return first < shorter * step ? first / step : 0.5;
+  return first < shortens_step * step ? first / step : 0.5;
 }
 
 bool rebound(const BlockSystem& system, RunState& state, const std::vector<ContactPair>& pairs) {

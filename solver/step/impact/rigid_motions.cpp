@@ -6,6 +6,10 @@
 namespace ashlar {
 namespace {
 
+/// Squared length of a rigid motion after restriction to the supports, of that before, from which on it is allowed: rounding
+/// takes away less. A smaller value would allow motions that supports prevent in part.
+constexpr double unrestricted = 1.0 - 1e-9;
+
 /// Rigid motions that the supports of a block leave, orthonormal. @return (unknowns, at most 6)
 Eigen::MatrixXd rigid_modes(const BlockModel& block, const BlockState& state) {
   const Eigen::MatrixXd fields = rigid_fields(state.position);
@@ -13,10 +17,8 @@ Eigen::MatrixXd rigid_modes(const BlockModel& block, const BlockState& state) {
   for (Eigen::Index k = 0; k < fields.cols(); ++k)
     modes.col(k) = block.space().restrict(Eigen::MatrixX3d(fields.col(k).reshaped(fields.rows() / 3, 3)));
   if (!block.supported()) return modes;
-  // Motions that lose nothing by the restriction.
-  constexpr double whole = 1.0 - 1e-9;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(modes.transpose() * modes);
-  const Eigen::Index lost = (parts.eigenvalues().array() < whole).count();
+  const Eigen::Index lost = (parts.eigenvalues().array() < unrestricted).count();
   return modes * parts.eigenvectors().rightCols(modes.cols() - lost);
 }
 
