@@ -152,6 +152,9 @@ struct StaticSettings {
                                     ///< are moving
   int iterations = 500;             ///< at one load level; more: not converged
   static constexpr int cuts = 60;   ///< of one iteration; more: not converged
+  /// iterations at one load level after which rigid blocks tell whether they move: smaller values ask where the elastic
+  /// iteration would soon end, larger ones iterate longer where blocks move
+  static constexpr int rigid_question_after = 16;
   /// of the stiffest block: inertia that replaces stiffness where a block has none. Smaller values converge in fewer
   /// iterations, larger ones reduce the motion of a free block by rounding errors
   static constexpr double inertia_share = 1e-9;
@@ -192,6 +195,10 @@ struct SimulationSettings {
       1e-3;  ///< m, > 0: search distance of contacts in addition to the motion of the step
   static constexpr double tearing_share =
       1e-6;  ///< of contact_distance: joints that open farther lose their cohesion
+
+  /// rad, > 0: turn of a deformable block in a step of average_acceleration and generalized_alpha, at most. Larger values
+  /// gain energy (notes/turn_limit.md): with this one less than 1 % in 30 rad
+  static constexpr double largest_turn = 0.03;
 
   /// Largest opening of a point without pressure that preserves its cohesion, m.
   [[nodiscard]] double tearing_gap() const { return tearing_share * contact_distance; }

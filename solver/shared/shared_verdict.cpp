@@ -155,12 +155,11 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
 
 StaticStatus judged(const RunContext& run, double end_time, StaticStatus status) {
   // Where many iterations are needed blocks often move, which rigid blocks tell in less time than the remaining ones.
-  constexpr int asked_after = 16;
   const bool several = !run.system.exchange().alone();
   if (status == StaticStatus::balancing)
-    return run.state.statics.iterations != asked_after ? status
-           : several                                   ? shared_verdict(run, end_time, status)
-                                                       : rigid_collapse(run.system, run.state, end_time);
+    return run.state.statics.iterations != StaticSettings::rigid_question_after ? status
+           : several ? shared_verdict(run, end_time, status)
+                     : rigid_collapse(run.system, run.state, end_time);
   if (status == StaticStatus::moving && doubt_of_motion(run.system, run.state) == MotionDoubt::none)
     return status;
   const StaticStatus verdict = several ? shared_verdict(run, end_time, status)

@@ -18,7 +18,6 @@ double turn_between(const Eigen::MatrixX3d& before, const Eigen::MatrixX3d& afte
 }
 
 double limited_by_turns(const BlockSystem& system, RunState& state, double step) {
-  constexpr double allowed = 0.03;  // rad: less than 1 % of the energy in 30 rad
   if (system.settings().integrator == Integrator::dda) return step;
   double largest = 0.0;
   for (int k = 0; k < system.count(); ++k) {
@@ -28,9 +27,9 @@ double limited_by_turns(const BlockSystem& system, RunState& state, double step)
     largest = std::max(largest, turn_between(of.position, of.position + step * of.velocity));
   }
   largest = most_of_run(system, largest);
-  if (!(largest > allowed)) return step;
+  if (!(largest > SimulationSettings::largest_turn)) return step;
   ++state.extremes.turn.limited;
-  return step * allowed / largest;
+  return step * SimulationSettings::largest_turn / largest;
 }
 
 }  // namespace ashlar
