@@ -76,7 +76,7 @@ struct TriedStep {
 std::optional<TriedStep> tried(Simulation& simulation, double step, int count, double end_time,
                                const GoalValues& goals) {
   const SimulationSnapshot before = simulation.snapshot();
-  const double given = simulation.system().settings().time_step;
+  const double own_step = simulation.system().settings().time_step;
   simulation.set_time_step(step);
   bool whole = true;
   for (int k = 0; whole && k < count; ++k) {
@@ -85,7 +85,7 @@ std::optional<TriedStep> tried(Simulation& simulation, double step, int count, d
   }
   std::optional<TriedStep> end;
   if (whole) end = TriedStep{simulation.states(), goals(simulation), contact_marks(simulation)};
-  simulation.set_time_step(given);
+  simulation.set_time_step(own_step);
   simulation.restore(before);
   return end;
 }
@@ -349,7 +349,7 @@ bool moves_plainly(const Simulation& simulation, double end_time) {
 /// Pilots of few steps, enough for blocks without vibrations and orders. @return the pilots; fewer than two: ended
 std::vector<PilotRun> coarse_pilots(Simulation& simulation, double end_time, const GoalValues& goals,
                                     const std::function<bool()>& goes_on) {
-  const double given = simulation.system().settings().time_step;
+  const double own_step = simulation.system().settings().time_step;
   std::vector<PilotRun> pilots;
   for (const double count : coarse_steps) {
     simulation.set_time_step(end_time / count);
@@ -357,7 +357,7 @@ std::vector<PilotRun> coarse_pilots(Simulation& simulation, double end_time, con
     if (!pilot) break;
     pilots.push_back(*pilot);
   }
-  simulation.set_time_step(given);
+  simulation.set_time_step(own_step);
   return pilots;
 }
 

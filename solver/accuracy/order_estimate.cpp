@@ -90,9 +90,9 @@ double relative_to(double error, const Goal& goal) {
 }
 
 double error_of_energy(const AccuracyRound& round) {
-  double lacks = 0.0;
-  for (const double lack : round.lacks) lacks += std::max(lack, 0.0);
-  return lacks > 0.0 ? lacks / (sum_over(round.energies) + lacks) : 0.0;
+  double missing = 0.0;
+  for (const double lack : round.lacks) missing += std::max(lack, 0.0);
+  return missing > 0.0 ? missing / (sum_over(round.energies) + missing) : 0.0;
 }
 
 double order_error_of(const std::vector<AccuracyRound>& all, std::size_t index, const Goal& goal) {

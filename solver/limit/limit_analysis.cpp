@@ -29,12 +29,12 @@ double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocit
 }
 
 /// Outcome that a programme's answer proves.
-LimitOutcome outcome_of(const ConeAnswer& found, const std::vector<BodyVelocity>& load, std::size_t bodies) {
-  const double motion = largest_motion(found.velocity, load, bodies);
-  if (!(found.residual < deciding_residual)) return LimitOutcome::unknown;
+LimitOutcome outcome_of(const ConeAnswer& answer, const std::vector<BodyVelocity>& load, std::size_t bodies) {
+  const double motion = largest_motion(answer.velocity, load, bodies);
+  if (!(answer.residual < deciding_residual)) return LimitOutcome::unknown;
   if (motion <= still) return LimitOutcome::stands;
-  return product(found.velocity, found.velocity) > 2.0 * found.gap ? LimitOutcome::moves
-                                                                   : LimitOutcome::unknown;
+  return product(answer.velocity, answer.velocity) > 2.0 * answer.gap ? LimitOutcome::moves
+                                                                      : LimitOutcome::unknown;
 }
 
 }  // namespace
@@ -168,10 +168,10 @@ LimitTrial LimitAnalysis::decided(FrictionAt friction, const LimitFactors& facto
     ConeProgram stronger = above(friction, factors);
     ConeQuestion asked;
     asked.load = load(factors.load);
-    const ConeAnswer found = stronger.solve(asked);
+    const ConeAnswer answer = stronger.solve(asked);
     trial.programmes = ++programmes;
-    trial.iterations = iterations += found.iterations;
-    if (outcome_of(found, asked.load, stronger.loaded_bodies()) == LimitOutcome::moves) return trial;
+    trial.iterations = iterations += answer.iterations;
+    if (outcome_of(answer, asked.load, stronger.loaded_bodies()) == LimitOutcome::moves) return trial;
     trial.outcome = LimitOutcome::unknown;
     if (n == most_refinements || !divide(friction, stronger, trial.acceleration)) return trial;
   }
@@ -180,12 +180,12 @@ LimitTrial LimitAnalysis::decided(FrictionAt friction, const LimitFactors& facto
 LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& factors) const {
   ConeQuestion asked;
   asked.load = load(factors.load);
-  ConeAnswer found = program.solve(asked);
+  ConeAnswer answer = program.solve(asked);
   LimitTrial trial;
   trial.factors = factors;
   trial.programmes = 1;
-  trial.iterations = found.iterations;
-  trial.outcome = outcome_of(found, asked.load, program.loaded_bodies());
+  trial.iterations = answer.iterations;
+  trial.outcome = outcome_of(answer, asked.load, program.loaded_bodies());
   trial.balanced = trial.outcome == LimitOutcome::stands;
   if (trial.outcome == LimitOutcome::moves) {
     // Power of forces within the reduced strengths: z . x of the cones is the remaining strength.
@@ -193,15 +193,15 @@ LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& 
     for (std::size_t k = 0; k < model_.points.size(); ++k) {
       if (!reduced_[k]) continue;
       const ConeStrength& s = program.points()[k].strength;
-      strength_power += found.opening[k][0] * (s.friction * found.force[k][0] + s.cohesion) +
-                        found.opening[k][1] * s.tension;
-      if (s.crushes()) strength_power += found.opening[k][2] * s.compression;
+      strength_power += answer.opening[k][0] * (s.friction * answer.force[k][0] + s.cohesion) +
+                        answer.opening[k][1] * s.tension;
+      if (s.crushes()) strength_power += answer.opening[k][2] * s.compression;
     }
-    const double square = product(found.velocity, found.velocity);
+    const double square = product(answer.velocity, answer.velocity);
     if (strength_power > 0.0) trial.estimate = factors.strength / (1.0 + square / strength_power);
   }
-  trial.acceleration = std::move(found.velocity);
-  trial.force = std::move(found.force);
+  trial.acceleration = std::move(answer.velocity);
+  trial.force = std::move(answer.force);
   return trial;
 }
 
@@ -213,11 +213,11 @@ std::vector<BodyVelocity> LimitAnalysis::without_friction(const LimitFactors& fa
   }
   ConeQuestion asked;
   asked.load = load(factors.load);
-  ConeAnswer found = program_.solve(asked);
+  ConeAnswer answer = program_.solve(asked);
   set_factors(factors);
   ++trial.programmes;
-  trial.iterations += found.iterations;
-  return std::move(found.velocity);
+  trial.iterations += answer.iterations;
+  return std::move(answer.velocity);
 }
 
 SingleBodies& LimitAnalysis::single() {
@@ -299,19 +299,19 @@ double LimitAnalysis::most_that_stands(FrictionAt friction, double most) {
   asked.load = load(0.0);
   asked.grows = model_.multiplied;
   asked.most = most;
-  const auto is_found = [](const ConeAnswer& found) {
-    return found.status == ConeStatus::solved && found.residual < still;
+  const auto is_found = [](const ConeAnswer& answer) {
+    return answer.status == ConeStatus::solved && answer.residual < still;
   };
   for (int n = 0;; ++n) {
     set_factors({});
-    const ConeAnswer found = program(friction).solve(asked);
-    if (!is_found(found)) return 0.0;
-    if (!divides_ || n == most_refinements) return found.factor;
+    const ConeAnswer answer = program(friction).solve(asked);
+    if (!is_found(answer)) return 0.0;
+    if (!divides_ || n == most_refinements) return answer.factor;
     if (above_.corners.empty()) above_ = corner_model(model_);
     ConeProgram stronger = above(friction, {});
     const ConeAnswer bound = stronger.solve(asked);
-    if (!is_found(bound) || bound.factor <= found.factor * (1.0 + close_factors)) return found.factor;
-    if (!divide(friction, stronger, found.velocity)) return found.factor;
+    if (!is_found(bound) || bound.factor <= answer.factor * (1.0 + close_factors)) return answer.factor;
+    if (!divide(friction, stronger, answer.velocity)) return answer.factor;
   }
 }
 

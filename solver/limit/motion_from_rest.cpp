@@ -13,7 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Relative to the fastest point: residual of Coulomb's law in its velocity.
-constexpr double settled = 1e-2;
+constexpr double coulomb_residual = 1e-2;
 /// The same, for an exact solution.
 constexpr double exact = 1e-11;
 /// Total number of sweeps relative to those after which motion is certain.
@@ -175,33 +175,33 @@ double largest_motion(const std::vector<BodyVelocity>& velocity, const std::vect
 
 ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<double>& dilation,
                                 const std::vector<BodyVelocity>& load, std::vector<Vector3d> force) {
-  ReleasedMotion found;
+  ReleasedMotion result;
   Sweeps sweeps(program, dilation, load, std::move(force));
   const double points = static_cast<double>(std::max<std::size_t>(program.points().size(), 1));
   const int most =
       static_cast<int>(std::min<double>(most_sweeps, std::max<double>(most_updates / points, first_check)));
   Decay decay;
   int last = most;
-  for (int check = first_check; found.iterations < last; check = std::min(2 * check, last)) {
-    for (; found.iterations < std::min(check, last); ++found.iterations)
-      sweeps.sweep(found.iterations % 2 == 0);
+  for (int check = first_check; result.iterations < last; check = std::min(2 * check, last)) {
+    for (; result.iterations < std::min(check, last); ++result.iterations)
+      sweeps.sweep(result.iterations % 2 == 0);
     const double motion = largest_motion(sweeps.velocity(), load, program.loaded_bodies());
     if (motion < resting_motion) {
-      found.outcome = LimitOutcome::stands;
+      result.outcome = LimitOutcome::stands;
       break;
     }
     decay.add(motion);
     const bool done = sweeps.lack() <= exact * sweeps.fastest();
-    const bool moves = done || (sweeps.lack() <= settled * sweeps.fastest() && decay.lasts());
+    const bool moves = done || (sweeps.lack() <= coulomb_residual * sweeps.fastest() && decay.lasts());
     // Once motion is certain, a few more sweeps for its accelerations.
-    if (moves && found.outcome != LimitOutcome::moves) last = std::min(most, polished * found.iterations);
-    found.outcome = moves ? LimitOutcome::moves : LimitOutcome::unknown;
+    if (moves && result.outcome != LimitOutcome::moves) last = std::min(most, polished * result.iterations);
+    result.outcome = moves ? LimitOutcome::moves : LimitOutcome::unknown;
     // Slow decay is treated by slow slip.
     if (done || decay.ends()) break;
   }
-  found.velocity = std::move(sweeps.velocity());
-  found.force = std::move(sweeps.force());
-  return found;
+  result.velocity = std::move(sweeps.velocity());
+  result.force = std::move(sweeps.force());
+  return result;
 }
 
 }  // namespace ashlar

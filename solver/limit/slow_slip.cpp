@@ -33,8 +33,8 @@ Eigen::VectorXd shifts_of(const ConeProgram& program, const std::vector<double>&
   Eigen::VectorXd shift(static_cast<Eigen::Index>(dilation.size()));
   for (std::size_t pair = 0; pair < program.pairs().size(); ++pair) {
     for (std::size_t k = program.pairs()[pair].begin; k < program.pairs()[pair].end; ++k) {
-      const double kept = program.points()[k].strength.friction - dilation[k];
-      shift[static_cast<Eigen::Index>(k)] = kept * program.relative(pair, k, velocity).tail<2>().norm();
+      const double excess = program.points()[k].strength.friction - dilation[k];
+      shift[static_cast<Eigen::Index>(k)] = excess * program.relative(pair, k, velocity).tail<2>().norm();
     }
   }
   return shift;

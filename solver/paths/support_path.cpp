@@ -252,10 +252,10 @@ class Path {
       const Eigen::Matrix3d relative =
           placement_.turn[at(blocks[0])].transpose() * placement_.turn[at(blocks[1])];
       const auto slip = placement_.slip.find(blocks);
-      const auto found = bearing.find(blocks);
-      MovedJoint joint{blocks, found != bearing.end() ? found->second.place : place,
+      const auto resultant = bearing.find(blocks);
+      MovedJoint joint{blocks, resultant != bearing.end() ? resultant->second.place : place,
                        Eigen::AngleAxisd(relative).angle(),
-                       slip != placement_.slip.end() ? slip->second : 0.0, found != bearing.end()};
+                       slip != placement_.slip.end() ? slip->second : 0.0, resultant != bearing.end()};
       if (joint.rotation > least_joint_rotation || joint.slip > lengths_.closed)
         path_.joints.push_back(joint);
     }

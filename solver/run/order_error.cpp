@@ -26,6 +26,9 @@ constexpr int further_orders = 2;
 
 /// Of sums of forces.
 constexpr double relative_rounding = 1e-11;
+/// Stiffness of rigid motions, which the residual does not contain, of the largest one: smaller values leave their matrix
+/// singular, larger ones reduce the error that is estimated.
+constexpr double stiffness_of_rigid_motion = 1e-12;
 
 /// The order that is tried first.
 int wanted_order(const BlockModel& block) {
@@ -155,9 +158,7 @@ OrderError error_of(const Simulation& simulation, const Candidate& candidate, co
   if (!(residual.norm() > relative_rounding * outer.norm() + high.force_rounding() + ties.rounding))
     return error;
   Eigen::MatrixXd stiffness = high.tangent(position, elastic, true);
-  // Rigid motions, which the residual does not contain, have no stiffness.
-  constexpr double of_largest = 1e-12;
-  stiffness.diagonal().array() += of_largest * stiffness.diagonal().maxCoeff();
+  stiffness.diagonal().array() += stiffness_of_rigid_motion * stiffness.diagonal().maxCoeff();
   const double squared = residual.dot(stiffness.ldlt().solve(residual));
   if (squared > 0.0) error.lacks = 0.5 * squared;
   return error;
@@ -275,12 +276,12 @@ std::vector<OrderError> order_errors(const Simulation& simulation) {
 }
 
 double relative_error(const std::vector<OrderError>& errors) {
-  double lacks = 0.0, energy = 0.0;
+  double missing = 0.0, energy = 0.0;
   for (const OrderError& error : errors) {
-    lacks += error.lacks;
+    missing += error.lacks;
     energy += error.energy;
   }
-  return relative_of(lacks, energy);
+  return relative_of(missing, energy);
 }
 
 }  // namespace ashlar

@@ -212,11 +212,11 @@ class StaticIteration {
 
   /// True if blocks have moved so far that neighbours have been found again.
   bool needs_other_neighbours() {
-    const double way = system_.exchange().way_beyond(system_, caches_.contacts.finder(), [this](int block) {
-      return problem_.bodies[at(block)].motion();
-    });
-    if (way > 0.0) system_.exchange().find_neighbours(run_, way);
-    return way > 0.0;
+    const double distance =
+        system_.exchange().way_beyond(system_, caches_.contacts.finder(),
+                                      [this](int block) { return problem_.bodies[at(block)].motion(); });
+    if (distance > 0.0) system_.exchange().find_neighbours(run_, distance);
+    return distance > 0.0;
   }
 
   /// The same attempt with other neighbours, which is no cut.
