@@ -16,13 +16,15 @@
 namespace ashlar {
 namespace {
 
+/// Of the trace of the second moment: rounding must not rotate the axes of a cube. Any axes give a basis, so that results do
+/// not depend on this value.
+constexpr double negligible_product = 1e-9;
+
 /// Principal axes, each in the column of the nearest coordinate axis; the coordinate axes if the second moment is
 /// diagonal or isotropic.
 Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& second_moment) {
-  // Rounding must not rotate the axes of a cube. Any axes give a basis, so that results do not depend on this value.
-  constexpr double negligible = 1e-9;
   const Eigen::Matrix3d diagonal = second_moment.diagonal().asDiagonal();
-  if ((second_moment - diagonal).cwiseAbs().maxCoeff() <= negligible * second_moment.trace())
+  if ((second_moment - diagonal).cwiseAbs().maxCoeff() <= negligible_product * second_moment.trace())
     return Eigen::Matrix3d::Identity();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second_moment);
   Eigen::Matrix3d vectors = solver.eigenvectors();
@@ -74,6 +76,13 @@ namespace {
 constexpr double allowed_error = 0x1p-56;
 /// Relative error of volume and second moment: preserves the digits of small entries of a thin block's second moment.
 constexpr double allowed_error_of_measure = 0x1p-80;
+/// Errors of coordinates are relative to at least this, of half the box: smaller values overestimate those of coordinates
+/// near zero, larger ones all. Each coordinate has some rounding errors.
+constexpr double least_coordinate = 0x1p-10, operations_of_box = 8.0;
+/// Rounding errors of a term of a moment: for each degree, and besides.
+constexpr double operations_of_degree = 3.0, operations_of_moment = 12.0;
+/// Points at which the loss of digits is measured, at most: more take longer and hardly find a larger one.
+constexpr std::size_t most_points_of_loss = 16;
 
 template <class Real>
 constexpr bool is_last_resort = std::is_same_v<Real, FiftyDigits>;
@@ -81,7 +90,8 @@ constexpr bool is_last_resort = std::is_same_v<Real, FiftyDigits>;
 /// Bounds the relative error of the terms of moments, see moment_sizes().
 template <class Real>
 double moment_error(int degree, double error_of_coordinates) {
-  return (3.0 * degree + 12.0) * (unit_roundoff<Real> + error_of_coordinates);
+  return (operations_of_degree * degree + operations_of_moment) *
+         (unit_roundoff<Real> + error_of_coordinates);
 }
 
 }  // namespace
@@ -189,18 +199,16 @@ std::vector<Real> PolynomialBasis::Parts::seed_moments(const TriangleMesh& mesh,
   // The axes are orthonormal but for rounding, so that the determinant of the map is not exactly that of h.
   const Real scale = exact.volume / monomial[0];
   for (Real& moment : monomial) moment *= scale;
-  // Relative rounding error of coordinates with cancellation, relative to at least `small`.
-  constexpr double small = 0x1p-10;
+  // Relative rounding error of coordinates with cancellation.
   double cancelled = 0.0;
   std::vector<Vector3> xi;
   for (std::size_t n = 0; n < mesh.points.size(); ++n) {
     const Vector3 terms = axes.cwiseAbs().transpose() * (mesh.points[n] - mesh.points.front()).cwiseAbs();
     cancelled = std::max(cancelled, (terms + middle.cwiseAbs()).cwiseQuotient(half_size).maxCoeff());
     const auto& [x, y, z] = exact.points[n];
-    xi.push_back(Vector3(rounded(x), rounded(y), rounded(z)).cwiseAbs().cwiseMax(small));
+    xi.push_back(Vector3(rounded(x), rounded(y), rounded(z)).cwiseAbs().cwiseMax(least_coordinate));
   }
-  constexpr double operations = 8.0;
-  const double of_coordinates = operations * unit_roundoff<Real> * cancelled / small;
+  const double of_coordinates = operations_of_box * unit_roundoff<Real> * cancelled / least_coordinate;
   error = moment_error<Real>(degree, of_coordinates) * std::abs(rounded(scale)) *
           legendre_size(moment_sizes(xi, mesh, degree), degree);
   return legendre_moments(monomial, degree);
@@ -293,8 +301,7 @@ template <class Real>
 void PolynomialBasis::Parts::measure_loss(const TriangleMesh& mesh, const ExactParts<Real>& exact) {
   int worst_degree = order + 1;
   // Points of the mesh are exact in many digits and in double precision.
-  constexpr std::size_t most_points = 16;
-  const std::size_t stride = (exact.points.size() + most_points - 1) / most_points;
+  const std::size_t stride = (exact.points.size() + most_points_of_loss - 1) / most_points_of_loss;
   for (std::size_t n = 0; n < exact.points.size(); n += stride) {
     const std::vector<Real> seeds = seed_values(exact.points[n], order);
     const Vector3 xi =

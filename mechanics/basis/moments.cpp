@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <boost/multiprecision/gmp.hpp>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "mechanics/basis/simplex_moments.hpp"
 
@@ -13,6 +15,15 @@ namespace ashlar {
 namespace {
 
 using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+
+/// Digits of a double after scaling to an integer.
+constexpr int digits_of_double = std::numeric_limits<double>::digits;
+/// Digits of a quotient that rounds like the exact value: 64 and a sticky bit.
+constexpr long digits_of_quotient = 66;
+/// Exponents beyond this range are zero or infinite as doubles.
+constexpr long largest_exponent = 5000;
+/// Largest degree of moments: higher ones are beyond any basis, and their integers are large.
+constexpr int largest_degree = 60;
 
 /// Exponent of the largest power of two of which all coordinates are multiples.
 int common_exponent(const std::vector<Vector3>& points) {
@@ -23,7 +34,7 @@ int common_exponent(const std::vector<Vector3>& points) {
       if (point[axis] == 0.0) continue;
       int e = 0;
       std::frexp(point[axis], &e);
-      exponent = first ? e - 53 : std::min(exponent, e - 53);
+      exponent = first ? e - digits_of_double : std::min(exponent, e - digits_of_double);
       first = false;
     }
   }
@@ -33,11 +44,10 @@ int common_exponent(const std::vector<Vector3>& points) {
 /// sum * 2^exponent * numerator / denominator to the nearest double.
 double rounded(const Integer& sum, long exponent, const Integer& numerator, const Integer& denominator) {
   if (sum == 0) return 0.0;
-  // A quotient with 64 significant bits and a sticky bit rounds like the exact value.
   Integer top = sum * numerator;
   const bool negative = top < 0;
   if (negative) top = -top;
-  const long shift = 66 + static_cast<long>(msb(denominator)) - static_cast<long>(msb(top));
+  const long shift = digits_of_quotient + static_cast<long>(msb(denominator)) - static_cast<long>(msb(top));
   Integer bottom = denominator;
   if (shift >= 0) {
     top <<= static_cast<unsigned long>(shift);
@@ -47,21 +57,24 @@ double rounded(const Integer& sum, long exponent, const Integer& numerator, cons
   Integer quotient;
   Integer remainder;
   divide_qr(top, bottom, quotient, remainder);
-  // 53 leading bits, rounded to nearest even by hand; results below the normal range are rounded by ldexp.
-  const long extra = static_cast<long>(msb(quotient)) - 52;
+  // As many leading bits as a double has, rounded to nearest even by hand; results below the normal range are rounded
+  // by ldexp.
+  const long extra = static_cast<long>(msb(quotient)) - (digits_of_double - 1);
   Integer mantissa = quotient >> static_cast<unsigned long>(extra);
   const Integer rest = quotient - (mantissa << static_cast<unsigned long>(extra));
   const Integer half = Integer(1) << static_cast<unsigned long>(extra - 1);
   if (rest > half || (rest == half && (remainder != 0 || (mantissa & 1) != 0))) ++mantissa;
-  const double value = std::ldexp(static_cast<double>(mantissa.convert_to<long long>()),
-                                  static_cast<int>(std::clamp(extra - shift + exponent, -5000L, 5000L)));
+  const double value =
+      std::ldexp(static_cast<double>(mantissa.convert_to<long long>()),
+                 static_cast<int>(std::clamp(extra - shift + exponent, -largest_exponent, largest_exponent)));
   return negative ? -value : value;
 }
 
 }  // namespace
 
 std::vector<double> moments(const TriangleMesh& mesh, int degree) {
-  if (degree < 0 || degree > 60) throw std::invalid_argument("degree of moments must be 0 to 60");
+  if (degree < 0 || degree > largest_degree)
+    throw std::invalid_argument("degree of moments must be 0 to " + std::to_string(largest_degree));
   const int exponent = common_exponent(mesh.points);
   std::vector<std::array<Integer, 3>> points;
   points.reserve(mesh.points.size());
@@ -70,9 +83,10 @@ std::vector<double> moments(const TriangleMesh& mesh, int degree) {
     for (int axis = 0; axis < 3; ++axis) {
       int e = 0;
       const double fraction = std::frexp(point[axis], &e);
-      scaled[static_cast<std::size_t>(axis)] = Integer(static_cast<long long>(std::ldexp(fraction, 53)));
+      scaled[static_cast<std::size_t>(axis)] =
+          Integer(static_cast<long long>(std::ldexp(fraction, digits_of_double)));
       if (point[axis] != 0.0)
-        scaled[static_cast<std::size_t>(axis)] <<= static_cast<unsigned>(e - 53 - exponent);
+        scaled[static_cast<std::size_t>(axis)] <<= static_cast<unsigned>(e - digits_of_double - exponent);
     }
     points.push_back(scaled);
   }

@@ -103,11 +103,20 @@ namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
 
+/// Height of a corner over the line between its neighbours, of its length: flatter ones are cut off as triangles of their
+/// own. Larger values cut off corners of good shape, smaller ones leave triangles of a fan nearly without height.
+constexpr double nearly_straight = 1e-3;
+/// Ratio of heights below which a corner is flatter than another: the first of those that are equal within rounding error is
+/// cut off.
+constexpr double flatter = 1.0 - 1e-6;
+/// Doubled area of a polygon without a centroid, of its squared length: some hundred rounding errors. Smaller values have an
+/// arbitrary centroid, larger ones leave out thin polygons.
+constexpr double sliver = 1e-13;
+/// Weight of the two middle points that counts as none: rounding errors are about 1e-16.
+constexpr double no_weight = 1e-12;
+
 /// Removes the flattest corner of a polygon if it is nearly straight. @return it, the next one and the last one
 std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon) {
-  constexpr double nearly_straight = 1e-3;  // height of a corner over the line between its neighbours
-  // The first of corners that are equally flat within rounding error.
-  constexpr double less = 1.0 - 1e-6;
   const std::size_t corners = polygon.size();
   if (corners <= 3) return std::nullopt;
   double least = nearly_straight;
@@ -116,7 +125,7 @@ std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon)
     const Eigen::Vector2d& before = polygon[(k + corners - 1) % corners];
     const Eigen::Vector2d line = polygon[(k + 1) % corners] - before;
     const double height = std::abs(cross(line, polygon[k] - before));
-    if (!(height < (flattest ? less : 1.0) * least * line.squaredNorm())) continue;
+    if (!(height < (flattest ? flatter : 1.0) * least * line.squaredNorm())) continue;
     least = height / line.squaredNorm();
     flattest = k;
   }
@@ -142,7 +151,6 @@ void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, Pol
 
 /// Centroid of a polygon; empty for slivers whose height is within rounding error: it would be arbitrary.
 std::optional<Eigen::Vector2d> centroid_of(const Corners& polygon) {
-  constexpr double sliver = 1e-13;  // of the squared length, some hundred rounding errors
   double doubled_area = 0.0;
   double squared_length = 0.0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
@@ -223,10 +231,8 @@ void add_two_rings(const Corners& polygon, PolygonRule& rule) {
   // Bounds for every convex polygon; rounding errors of needles may exceed them.
   const auto bounded = [](double found) { return found > 1.0 / 6.0 ? std::min(found, 0.5) : 1.0 / 6.0; };
   const double share = bounded(shares.eigenvalues()[0]);
-  // Rounding errors are about 1e-16.
-  constexpr double none = 1e-12;
-  const double left = 1.0 - share / bounded(shares.eigenvalues()[1]);
-  const double middle = left > none ? left : 0.0;
+  const double remainder = 1.0 - share / bounded(shares.eigenvalues()[1]);
+  const double middle = remainder > no_weight ? remainder : 0.0;
   const double outer = 0.5 * share;
   const double inner = 1.0 - outer - middle;
   const double scale = std::sqrt((share - outer) / inner);

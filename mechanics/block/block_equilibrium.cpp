@@ -15,6 +15,12 @@ constexpr int max_halvings = 30;
 /// Relative to the load: convergence, and convergence of a stalled iteration.
 constexpr double force_tolerance = 1e-12;
 constexpr double stalled_tolerance = 1e-9;
+/// Residual over the last one above which an iteration stalls; a step that reduces it more is long enough.
+constexpr double stalling = 0.5;
+/// Decrease of energy over that of the linear model, from which on a step is long enough: larger values shorten good steps.
+constexpr double energy_decrease = 0.1;
+/// Rounding errors of a term of a force: larger values accept larger residuals.
+constexpr double operations_of_force = 8.0;
 
 /// Descent direction of the energy: Newton's, or without the stress's part if that is not convex.
 std::optional<Eigen::VectorXd> newton_direction(const BlockModel& block, const Eigen::MatrixX3d& position,
@@ -41,7 +47,7 @@ bool balance(const BlockModel& block, const Eigen::VectorXd& force, double round
     const double slope = residual.dot(*direction);
     const double left = residual.norm();
     const bool last = left <= force_tolerance * force.norm() + rounding ||
-                      (left <= stalled_tolerance * force.norm() && left > 0.5 * before);
+                      (left <= stalled_tolerance * force.norm() && left > stalling * before);
     before = left;
     double share = 1.0;
     const double start = elastic.energy - force.dot(y);
@@ -49,8 +55,8 @@ bool balance(const BlockModel& block, const Eigen::VectorXd& force, double round
       const Eigen::VectorXd next = y + share * *direction;
       elastic = block.elastic(place(next));
       // Near the solution the gain is below rounding error, but the residual still decreases.
-      const bool enough = start - (elastic.energy - force.dot(next)) >= 0.1 * share * slope ||
-                          (force - block.space().restrict(elastic.force)).norm() <= 0.5 * left;
+      const bool enough = start - (elastic.energy - force.dot(next)) >= energy_decrease * share * slope ||
+                          (force - block.space().restrict(elastic.force)).norm() <= stalling * left;
       if (last || enough) break;
     }
     y += share * *direction;
@@ -87,10 +93,10 @@ double BlockModel::force_rounding() const {
   Eigen::MatrixX3d size = basis_.identity_map().cwiseAbs();
   size.row(0).setZero();
   if (form_)
-    return 8.0 * std::numeric_limits<double>::epsilon() *
+    return operations_of_force * std::numeric_limits<double>::epsilon() *
            (tangent(Eigen::Matrix3d::Identity()).cwiseAbs() * space().restrict(size).cwiseAbs()).norm();
   size += (natural_ - basis_.identity_map()).cwiseAbs();
-  return 8.0 * std::numeric_limits<double>::epsilon() *
+  return operations_of_force * std::numeric_limits<double>::epsilon() *
          (parts_->stiffness.cwiseAbs() * size.reshaped()).norm();
 }
 

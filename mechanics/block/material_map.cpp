@@ -5,6 +5,14 @@
 #include "mechanics/block/block_parts.hpp"
 
 namespace ashlar {
+namespace {
+
+/// Newton's method for the material point at a place: steps, and the length of the last one in sizes of the block. The error
+/// after a step is of the order of its square: after one of 1e-8 it is within rounding error.
+constexpr int most_place_steps = 12;
+constexpr double last_place_step = 1e-8;
+
+}  // namespace
 
 MaterialMap::MaterialMap(const BlockModel& model, const BlockState& state)
     : model_(&model),
@@ -28,16 +36,13 @@ std::optional<Vector3> MaterialMap::material(const Vector3& place) const {
   if (!invertible_) return std::nullopt;
   Vector3 point = centroid_ + inverse_ * (place - middle_);
   if (affine_) return point;
-  // A step longer than the block leaves its surroundings. The error after a step is of the order of its square: after
-  // one of 1e-8 sizes it is within rounding error.
-  constexpr int step_limit = 12;
-  constexpr double last_step = 1e-8;
-  for (int step = 0; step < step_limit; ++step) {
-    const Vector3 lacking = place - state_->position.transpose() * model_->basis().values(point);
-    const Vector3 change = gradient(point).partialPivLu().solve(lacking);
+  // A step longer than the block leaves its surroundings.
+  for (int step = 0; step < most_place_steps; ++step) {
+    const Vector3 residual = place - state_->position.transpose() * model_->basis().values(point);
+    const Vector3 change = gradient(point).partialPivLu().solve(residual);
     if (!change.allFinite() || change.norm() > size_) return std::nullopt;
     point += change;
-    if (change.norm() <= last_step * size_) return point;
+    if (change.norm() <= last_place_step * size_) return point;
   }
   return std::nullopt;
 }

@@ -9,6 +9,15 @@ namespace {
 
 using Eigen::Index;
 
+/// Balance of a grouted bar, whose potential is piecewise quadratic: iterations end in far fewer than these, and halvings of
+/// a step too.
+constexpr int most_balance_iterations = 200, most_step_halvings = 40;
+/// Residual over the largest force: smaller values are within rounding error, larger ones leave the bar unbalanced.
+constexpr double balance_tolerance = 1e-13;
+/// Slope of the potential at the end of a step, over that at its start: larger values need more iterations, smaller ones
+/// more halvings.
+constexpr double line_overshoot = 0.1;
+
 /// Solves a symmetric positive definite tridiagonal system in place. @param right (n, #columns)
 void solve_tridiagonal(Eigen::VectorXd diagonal, const Eigen::VectorXd& beside, Eigen::MatrixXd& right) {
   const Index n = diagonal.size();
@@ -139,18 +148,14 @@ BoltChain::Springs BoltChain::springs_at(const std::vector<double>& places, cons
 
 std::vector<double> BoltChain::balance(const Eigen::VectorXd& rock, const BoltMemory& memory,
                                        Springs& springs) const {
-  constexpr int most = 200;          // iterations; the potential is piecewise quadratic: each ends in fewer
-  constexpr double enough = 1e-13;   // of the largest force
-  constexpr double overshoot = 0.1;  // of the slope at the start of a line search
-  constexpr int halvings = 40;
   const auto count = static_cast<Index>(bond_.size());
   std::vector<double> places = memory.places;
   const Eigen::Map<const Eigen::VectorXd> before(memory.places.data(), count);
   Eigen::Map<Eigen::VectorXd> now(places.data(), count);
   springs = springs_at(places, rock, memory);
   Eigen::VectorXd gradient = springs.gradient(now - before);
-  for (int k = 0; k < most; ++k) {
-    if (gradient.cwiseAbs().maxCoeff() <= enough * springs.largest_force()) break;
+  for (int k = 0; k < most_balance_iterations; ++k) {
+    if (gradient.cwiseAbs().maxCoeff() <= balance_tolerance * springs.largest_force()) break;
     Eigen::MatrixXd step = -gradient;
     solve_tridiagonal(springs.diagonal(), springs.beside(), step);
     const Eigen::VectorXd start = now;
@@ -163,10 +168,12 @@ std::vector<double> BoltChain::balance(const Eigen::VectorXd& rock, const BoltMe
       now = start + share * step;
       springs = springs_at(places, rock, memory);
       gradient = springs.gradient(now - before);
-      const double found = gradient.dot(step.col(0));
+      const double end_slope = gradient.dot(step.col(0));
       if (n == 0 && springs.same_sides(last)) return places;
-      if (n >= halvings || std::abs(found) <= -overshoot * slope || (n == 0 && found < 0.0)) break;
-      (found < 0.0 ? low : high) = share;
+      if (n >= most_step_halvings || std::abs(end_slope) <= -line_overshoot * slope ||
+          (n == 0 && end_slope < 0.0))
+        break;
+      (end_slope < 0.0 ? low : high) = share;
       share = 0.5 * (low + high);
     }
   }

@@ -3,10 +3,15 @@
 #include "mechanics/basis/quadrature.hpp"
 
 namespace ashlar {
+namespace {
+
+/// Degree of a field of stress in space up to which its moments are exact: higher ones need more points.
+constexpr int degree_of_stress = 4;
+
+}  // namespace
 
 Eigen::MatrixX3d initial_deformation(const Polyhedron& solid, const PolynomialBasis& basis,
                                      const Eigen::MatrixXd& stiffness, const StressField& stress) {
-  constexpr int degree_of_stress = 4;
   const VolumeRule rule = volume_rule(solid.mesh(), basis.centroid(), basis.order() - 1 + degree_of_stress);
   const auto count = static_cast<Eigen::Index>(rule.points.size());
   Eigen::Matrix<double, Eigen::Dynamic, 9> weighted(count, 9);

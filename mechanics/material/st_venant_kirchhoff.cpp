@@ -11,6 +11,12 @@
 namespace ashlar {
 namespace {
 
+/// Candidates for each point that determines polynomials: fewer determine them worse, more take longer.
+constexpr std::size_t candidates_of_point = 4;
+/// Of the points of a rule, from one candidate to the next: the golden section in thousandths scatters them over the rule,
+/// whose order has a pattern.
+constexpr std::size_t golden_thousandths = 618;
+
 /// Multiplicity of a component in a double sum over J and K.
 double multiplicity(std::size_t c) {
   return c < 3 ? 1.0 : 2.0;
@@ -19,15 +25,13 @@ double multiplicity(std::size_t c) {
 /// Points that determine polynomials of a basis best: approximate Fekete points (Sommariva and Vianello 2009) among
 /// those of a quadrature rule, as many as the basis has functions.
 std::vector<Vector3> unisolvent_points(const Polyhedron& solid, const PolynomialBasis& wide) {
-  constexpr std::size_t choice = 4;  // candidates for each point
   const VolumeRule rule = volume_rule(solid.mesh(), wide.centroid(), 2 * wide.order());
   const auto count = static_cast<std::size_t>(wide.size());
   const std::size_t all = rule.points.size();
-  // The golden section scatters candidates over the rule, whose order has a pattern.
-  std::size_t step = std::max<std::size_t>(1, all * 618 / 1000);
+  std::size_t step = std::max<std::size_t>(1, all * golden_thousandths / 1000);
   while (std::gcd(step, all) != 1) ++step;
   std::vector<Vector3> candidates;
-  for (std::size_t k = 0; k < std::min(all, choice * count); ++k)
+  for (std::size_t k = 0; k < std::min(all, candidates_of_point * count); ++k)
     candidates.push_back(rule.points[k * step % all]);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(wide.values(candidates).transpose());
   if (qr.rank() < wide.size())
