@@ -29,7 +29,7 @@ void refuse_idle_cracks(const Scene& scene, const std::vector<BlockModel>& block
 /// @param placed all blocks as placed
 void refuse_idle_searches(const Scene& scene, const Simulation& placed, Diagnostics& diagnostics) {
   const std::optional<RigidModel> model = limit_model(scene, placed);
-  refuse_idle_limits(scene, placed, model, diagnostics);
+  refuse_idle_limits(scene, model, diagnostics);
   refuse_movements(scene, model, diagnostics);
   refuse_pushover(scene, model, diagnostics);
 }

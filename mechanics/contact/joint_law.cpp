@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mechanics/contact/crushed_point.hpp"
 #include "mechanics/contact/sliding_point.hpp"
 #include "mechanics/contact/softened_point.hpp"
 
@@ -15,24 +16,6 @@ void PointLaw::set_damage(double damage) {
   cohesion = bond.cohesion * (1.0 - damage);
 }
 
-namespace {
-
-BondDamage bond_of(const JointLaw& law, double area) {
-  BondDamage bond;
-  if (law.fracture.tension > 0.0 && law.tensile_strength > 0.0) {
-    bond.tension = law.tensile_strength * area;
-    bond.peak = law.tensile_strength / law.normal_stiffness;
-    bond.end_opening = 2.0 * law.fracture.tension / law.tensile_strength;
-  }
-  if (law.fracture.shear > 0.0 && law.cohesion > 0.0) {
-    bond.cohesion = law.cohesion * area;
-    bond.end_slip = 2.0 * law.fracture.shear / law.cohesion;
-  }
-  return bond;
-}
-
-}  // namespace
-
 PointLaw point_law(const JointLaw& law, double area, bool intact, double damage) {
   const double scale = law.area_springs ? area : 1.0;
   const ResidualStrength residual = law.residual.value_or(ResidualStrength{law.friction, 0.0, 0.0});
@@ -40,6 +23,7 @@ PointLaw point_law(const JointLaw& law, double area, bool intact, double damage)
                  law.cohesion * area,          law.tensile_strength * area, law.rounding};
   point.residual = {residual.friction, residual.cohesion * area, residual.tensile_strength * area};
   point.dilation.tangent = law.dilation;
+  if (law.crushes() && area > 0.0) point.crushing = law.compressive_strength * area;
   if (law.fracture.given()) point.bond = bond_of(law, area);
   if (point.bond.softens()) point.set_damage(damage);
   if (!intact) point.fail();
@@ -130,7 +114,7 @@ void set_normal(const PointLaw& law, double gap, double normal, bool open, Point
   const bool yields = law.yields() && normal < -law.tension;
   if (!open) {
     response.force[0] = std::max(normal, -law.tension);
-    response.tangent(0, 0) = yields ? 0.0 : normal_resistance(law);
+    response.tangent(0, 0) = yields || response.fractured > 0.0 ? 0.0 : normal_resistance(law);
   }
   const bool damps = law.dashpots.normal > 0.0;
   const bool strained = damps ? gap < 0.0 || (law.tension > 0.0 && !open) : response.force[0] != 0.0;
@@ -157,6 +141,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
   if (law.bond.softens()) return softened_response(law, gap, slip);
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
   double normal = trial_normal(law, gap);
+  if (normal > law.crushing) normal = crush(law, normal, response);
   const double resistance = law.shear_stiffness + law.dashpots.shear;
   Eigen::Vector2d trial = law.shear_multiplier - resistance * slip;
   if (law.dashpots.shear > 0.0) trial += law.dashpots.shear * law.dashpots.start_slip;
@@ -173,7 +158,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
     normal += lift * slid;
   }
   const bool open = !law.yields() && normal < -(law.tension + normal_resistance(law) * law.rounding);
-  if (!open) response.dilation = dilation.tangent * slid;
+  if (!open && slid > 0.0) response.dilation = dilation.tangent * slid;
   set_normal(law, gap - response.dilation, normal, open, response);
   if (open && law.held_limit <= 0.0 && !law.bridged) return response;
   const ShearBound bound = shear_bound(law, normal, dilation.tangent);
@@ -277,11 +262,18 @@ MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double s
   spring.bridged = false;
   spring.dilation = {};
   spring.dashpots = {};
-  MeanNormal result{point_response(spring, end_gap, Eigen::Vector2d::Zero())};
-  const double seen_start = seen_gap(law, start, start_gap);
-  const double seen_end = seen_gap(law, result.end, end_gap);
+  const double closure = std::min(start.dilation, 0.0);
+  MeanNormal result{point_response(spring, end_gap - closure, Eigen::Vector2d::Zero())};
+  const double seen_start = seen_gap(law, start, start_gap - closure);
+  const double seen_end = seen_gap(law, result.end, end_gap - closure - result.end.dilation);
+  const bool crushes = closure < 0.0 || result.end.dilation < 0.0;
   MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, 0.0};
-  set_mean_normal(law, start, seen_start, result.end, seen_end, mean);
+  if (crushes)
+    set_mean_crushing(law, start_gap - closure, end_gap - closure, mean);
+  else
+    set_mean_normal(law, start, seen_start, result.end, seen_end, mean);
+  result.end.dilation += closure;
+  if (closure < 0.0) result.end.fractured += start.fractured;
   result.force = result.undamped = mean.force[0];
   result.slope = mean.tangent(0, 0);
   const bool end_open = result.end.state == ContactState::open;
@@ -346,7 +338,7 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   MeanResponse& mean = step.mean;
   mean.force[0] = normal.force;
   mean.tangent(0, 0) = normal.slope;
-  end.dilation = dilation.tangent * slid;
+  if (slid > 0.0) end.dilation = dilation.tangent * slid;
   const double end_gap = end_place[0] - end.dilation;
   if (law.dashpots.normal > 0.0) end.damped = (normal.undamped - normal.force) * (end_gap - start_place[0]);
   const bool end_open = end.state == ContactState::open;

@@ -33,6 +33,11 @@
 //
 // With fracture energy strength falls gradually instead of failing (softened_point.hpp).
 //
+// With compressive strength f (notes/crushing.md) the normal force is at most P = f A. Compression beyond it is closure c
+// that remains: the rest gap falls,
+//     N = min(-kn g, P),    c = max(0, -g - P/kn),
+// friction is that under N, and P c is dissipated. Such a point has a spring without multiplier, dashpot or dilation.
+//
 // Damping (notes/joint_damping.md): a dashpot parallel to each spring, before the slider, while the point is closed.
 // Without tensile strength it never makes N negative.
 //
@@ -86,9 +91,13 @@ struct JointLaw {
   /// Normal velocity after an impact over that before, 0 to 1 (solver/step/impact/restitution.hpp). Empty: as springs,
   /// dashpots or multipliers have it
   std::optional<double> restitution = std::nullopt;
-  /// Pa, > 0: plastic cap of normal pressure, of limit analysis only (solver/limit/crushing_joints.hpp)
+  /// Pa, > 0: plastic cap of normal pressure. In limit analysis solver/limit/crushing_joints.hpp
   double compressive_strength = std::numeric_limits<double>::infinity();
 
+  /// True if pressure has a plastic cap.
+  [[nodiscard]] bool crushes() const {
+    return compressive_strength < std::numeric_limits<double>::infinity();
+  }
   friend bool operator==(const JointLaw&, const JointLaw&) = default;
 };
 
@@ -131,6 +140,7 @@ struct PointLaw {
   Dashpots dashpots = {};
   BondDamage bond = {};    ///< of a joint with fracture energy
   bool is_static = false;  ///< tensile strength that cannot fail yields instead of opening
+  double crushing = std::numeric_limits<double>::infinity();  ///< f A, N: largest normal force
 
   /// True if tension is bounded by a plateau of the normal force.
   [[nodiscard]] bool yields() const { return is_static && tension > 0.0 && tension <= residual[2]; }
@@ -175,11 +185,12 @@ struct PointResponse {
   double shear_energy;   ///< of the shear spring, J
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< unit, of the shear force of a sliding point
   Coupling coupling = {};  ///< of a point that slides under Coulomb's law, or softens; otherwise zero
-  double dilation = 0.0;   ///< increase of the rest gap in the step, m
-  double damped = 0.0;     ///< energy dissipated by the dashpots in the step, J
+  double dilation =
+      0.0;  ///< increase of the rest gap in the step, m; negative: closure of a point that crushes
+  double damped = 0.0;  ///< energy dissipated by the dashpots in the step, J
   Eigen::Vector2d shear_damped = Eigen::Vector2d::Zero();  ///< part of `force` due to the shear dashpot, N
   double damage = 0.0;  ///< of a bond with fracture energy at the end of the step, 0 to 1
-  /// Energy dissipated by damage in the step beside that of the shear force on permanent slip, J
+  /// Energy dissipated by damage in the step beside that of the shear force on permanent slip, or by crushing, J
   double fractured = 0.0;
 
   [[nodiscard]] double energy() const { return normal_energy + shear_energy; }

@@ -5,6 +5,21 @@
 #include <cmath>
 
 namespace ashlar {
+
+BondDamage bond_of(const JointLaw& law, double area) {
+  BondDamage bond;
+  if (law.fracture.tension > 0.0 && law.tensile_strength > 0.0) {
+    bond.tension = law.tensile_strength * area;
+    bond.peak = law.tensile_strength / law.normal_stiffness;
+    bond.end_opening = 2.0 * law.fracture.tension / law.tensile_strength;
+  }
+  if (law.fracture.shear > 0.0 && law.cohesion > 0.0) {
+    bond.cohesion = law.cohesion * area;
+    bond.end_slip = 2.0 * law.fracture.shear / law.cohesion;
+  }
+  return bond;
+}
+
 namespace {
 
 /// Cause of damage of a point in a step.

@@ -15,6 +15,9 @@
 
 namespace ashlar {
 
+/// Bond of a point without damage. @param law with fracture energy. @param area of the point, m^2
+[[nodiscard]] BondDamage bond_of(const JointLaw& law, double area);
+
 /// As point_response(), of a law whose bond softens.
 [[nodiscard]] PointResponse softened_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip);
 

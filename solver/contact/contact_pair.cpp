@@ -153,7 +153,7 @@ Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
 double ContactPair::depth_found() const {
   double depth = 0.0;
   for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
-    if (laws_[k].tension == 0.0) depth = std::max(depth, -points_[k].gap);
+    if (laws_[k].tension == 0.0) depth = std::max(depth, std::min(0.0, dilation_before(k)) - points_[k].gap);
   }
   return depth;
 }
@@ -171,8 +171,9 @@ ContactPair ContactPair::projected(double depth) const {
            bonded ? bond.tensile_strength : 0.0};
     law.augmented = !tied();
     if (bonded) continue;
-    // After dilation, the surface is at the height where the point touches.
-    const double surface = std::max(0.0, std::min(points_[k].gap, dilation_before(k)));
+    // After dilation, or closure, the surface is at the height where the point touches.
+    const double rest = dilation_before(k);
+    const double surface = std::clamp(points_[k].gap, std::min(0.0, rest), std::max(0.0, rest));
     pair.rests_[k] = surface - depth;
     pair.start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - surface + depth;
   }

@@ -30,16 +30,10 @@ std::string joint_in_words(const LeastStrength& least, const Simulation& simulat
 
 }  // namespace
 
-void refuse_idle_crushing(const Scene& scene, const Simulation& simulation,
-                          const std::optional<RigidModel>& model, Diagnostics& diagnostics) {
+void warn_of_idle_crushing(const Scene& scene, const std::optional<RigidModel>& model,
+                           Diagnostics& diagnostics) {
   const std::optional<std::string> given = first_compressive_strength(scene);
   if (!given) return;
-  if (seeks_factor(scene.analysis) && !choose_method(scene, simulation, model).limit) {
-    diagnostics.error(scene.places.key(*given),
-                      "compressive_strength in a search by static analyses, which has none: joints or bolts "
-                      "lose strength, or the ground has stress; analysis.method = \"limit\" is needed");
-    return;
-  }
   if (!model) return;
   const auto count = std::count_if(model->points.begin(), model->points.end(),
                                    [](const RigidPoint& point) { return crushes(point) && !point.part; });

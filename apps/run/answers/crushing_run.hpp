@@ -12,10 +12,10 @@
 
 namespace ashlar {
 
-/// Reports compressive strengths in searches by static analyses, and warns of joints without an area.
+/// Warns of compressive strength of joints without an area.
 /// @param model of limit_model
-void refuse_idle_crushing(const Scene& scene, const Simulation& simulation,
-                          const std::optional<RigidModel>& model, Diagnostics& diagnostics);
+void warn_of_idle_crushing(const Scene& scene, const std::optional<RigidModel>& model,
+                           Diagnostics& diagnostics);
 
 /// @param path the factor that stands, with the strength that it needs on springs. Of few blocks the strength is that of
 /// the plastic limit, which takes longer

@@ -95,10 +95,10 @@ void warn_of_lost_strength(const Scene& scene, const RigidModel& model, Diagnost
 
 }  // namespace
 
-void refuse_idle_limits(const Scene& scene, const Simulation& simulation,
-                        const std::optional<RigidModel>& model, Diagnostics& diagnostics) {
+void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model,
+                        Diagnostics& diagnostics) {
   const bool rigid = is_of_rigid_blocks(scene.analysis);
-  refuse_idle_crushing(scene, simulation, model, diagnostics);
+  warn_of_idle_crushing(scene, model, diagnostics);
   if (!model) {
     if (rigid || (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit))
       diagnostics.error(

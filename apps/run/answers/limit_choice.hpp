@@ -30,7 +30,6 @@ struct MethodChoice {
                                          const std::optional<RigidModel>& model);
 
 /// Reports scenes with nothing to find: no block can move, or no load is multiplied.
-void refuse_idle_limits(const Scene& scene, const Simulation& simulation,
-                        const std::optional<RigidModel>& model, Diagnostics& diagnostics);
+void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model, Diagnostics& diagnostics);
 
 }  // namespace ashlar

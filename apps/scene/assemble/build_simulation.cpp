@@ -104,8 +104,8 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockSummar
 
 /// The law with its strength divided by a factor.
 JointLaw reduced(JointLaw law, double factor) {
-  for (double* strength : {&law.friction, &law.cohesion, &law.tensile_strength, &law.residual->friction,
-                           &law.residual->cohesion, &law.residual->tensile_strength})
+  for (double* strength : {&law.friction, &law.cohesion, &law.tensile_strength, &law.compressive_strength,
+                           &law.residual->friction, &law.residual->cohesion, &law.residual->tensile_strength})
     *strength /= factor;
   // The dilation of a joint is limited by its friction.
   law.dilation = std::min(law.dilation, law.residual->friction);
@@ -157,7 +157,10 @@ class JointLaws {
     result.friction = tangent(given.friction_angle);
     result.cohesion = given.cohesion;
     result.tensile_strength = given.tensile_strength;
-    if (given.compressive_strength) result.compressive_strength = *given.compressive_strength;
+    if (given.compressive_strength) {
+      result.compressive_strength = *given.compressive_strength;
+      result.is_compliant = multipliers_;
+    }
     // One entry may give the residual and a later one a smaller strength.
     result.residual = {
         std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),

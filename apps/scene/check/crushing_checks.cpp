@@ -43,16 +43,49 @@ void check_against_tension(const Scene& scene, const JointTablePath& table, Diag
   }
 }
 
-/// Why an analysis has no joints that crush; empty: it has them.
-std::string analysis_without_crushing(const Scene& scene) {
-  const SceneAnalysis& analysis = scene.analysis;
-  if (!scene.stage.empty()) return "an analysis with stages";
-  if (analysis.type == SceneAnalysis::Type::dynamic || analysis.type == SceneAnalysis::Type::statics)
-    return fmt::format("an analysis of type \"{}\"", name_of(analysis_type_names, analysis.type));
-  if (analysis.method == SceneAnalysis::Method::elastic) return "an analysis of method \"elastic\"";
+/// An analysis without joints that crush; empty: it has them.
+std::string analysis_without_crushing(const SceneAnalysis& analysis) {
   if (!analysis.movement.supports.empty()) return "a movement of supports";
   if (analysis.type == SceneAnalysis::Type::pushover) return "a pushover";
   return "";
+}
+
+/// True if springs of joints may decide: only rigid blocks have joints that crush beside all other properties.
+bool may_have_springs(const Scene& scene) {
+  const SceneAnalysis& analysis = scene.analysis;
+  switch (analysis.type) {
+    case SceneAnalysis::Type::dynamic:
+    case SceneAnalysis::Type::statics:
+      return true;
+    case SceneAnalysis::Type::safety:
+    case SceneAnalysis::Type::capacity:
+      return !scene.stage.empty() || analysis.method != SceneAnalysis::Method::limit;
+    default:
+      return !scene.stage.empty();
+  }
+}
+
+/// Properties that springs which crush do not have.
+void check_other_properties(const Scene& scene, const JointTablePath& table, Diagnostics& diagnostics) {
+  const SceneJointLaw& law = table.law;
+  if (!law.compressive_strength || law.tied || !may_have_springs(scene)) return;
+  const auto exclude = [&](const std::string& key, bool has) {
+    if (!has) return;
+    for (const std::string& place : {table.path + "." + key, table.path + ".compressive_strength",
+                                     std::string("contact.compressive_strength")}) {
+      if (!scene.places.contains(place)) continue;
+      diagnostics.error(
+          scene.places.key(place),
+          fmt::format("{} beside compressive_strength; a joint that crushes in motion or statics has "
+                      "friction, cohesion and tensile strength alone: leave one of the two out, or give "
+                      "analysis.method = \"limit\"",
+                      key));
+      return;
+    }
+  };
+  exclude("dilation_angle", law.dilation_angle > 0.0);
+  exclude("damping", law.damping > 0.0);
+  exclude("fracture_energy", law.fracture_energy.has_value());
 }
 
 }  // namespace
@@ -68,14 +101,15 @@ std::optional<std::string> first_compressive_strength(const Scene& scene) {
 void check_compressive_strengths(const Scene& scene, Diagnostics& diagnostics) {
   const std::optional<std::string> first = first_compressive_strength(scene);
   if (!first) return;
-  for (const JointTablePath& table : tables_of_joints(scene))
+  for (const JointTablePath& table : tables_of_joints(scene)) {
     check_against_tension(scene, table, diagnostics);
-  const std::string analysis = analysis_without_crushing(scene);
+    check_other_properties(scene, table, diagnostics);
+  }
+  const std::string analysis = analysis_without_crushing(scene.analysis);
   if (analysis.empty()) return;
-  diagnostics.error(scene.places.key(*first),
-                    fmt::format("compressive_strength in {}, which has none: type = \"factor-of-safety\", "
-                                "\"capacity\" or \"thrust\" by limit analysis is needed",
-                                analysis));
+  diagnostics.error(
+      scene.places.key(*first),
+      fmt::format("compressive_strength in {}, where joints do not crush; leave it out", analysis));
 }
 
 }  // namespace ashlar
