@@ -94,30 +94,42 @@ TEST_F(CrushingRun, BadStrengthsAreRefusedAtTheirPlaces) {
       HasSubstr(":6:24: error: compressive_strength is below tensile_strength (100000 Pa, 200000 Pa)"));
 }
 
-TEST_F(CrushingRun, AnalysesWithoutCrushingRefuseTheKey) {
-  const std::string scene = pushed_pier("compressive_strength = 1e6");
-  const auto with = [&](const std::string& analysis) {
-    return analysis + scene.substr(scene.find("\n[contact]"));
-  };
-  for (const char* analysis : {"[analysis]\nend_time = 1\ntime_step = 0.1", "[analysis]\ntype = \"static\"",
-                               "[analysis]\ntype = \"factor-of-safety\"\nmethod = \"elastic\"",
-                               "[analysis]\ntype = \"thrust\"\nmovement = { supports = [\"ground\"] }"}) {
-    EXPECT_EQ(run_of(with(analysis), "out"), 2) << analysis;
-    EXPECT_THAT(faults_, HasSubstr(": error: compressive_strength in a")) << analysis;
-  }
-  // A joint that loses strength has no limit analysis by itself.
-  EXPECT_EQ(run_of(pushed_pier("compressive_strength = 1e6\ncohesion = 1e4"), "out"), 2);
-  EXPECT_THAT(faults_, HasSubstr("compressive_strength in a search by static analyses"));
+/// The pier with another analysis.
+std::string with_analysis(const std::string& analysis, const std::string& contact) {
+  const std::string scene = pushed_pier(contact);
+  return analysis + scene.substr(scene.find("\n[contact]"));
 }
 
-TEST_F(CrushingRun, AJointOfAStageIsRefusedToo) {
-  const std::string scene = pushed_pier("");
-  EXPECT_EQ(run_of("[analysis]\ntype = \"static\"\n" + scene.substr(scene.find("\n[contact]")) +
-                       "[[stage]]\nname = \"one\"\n[[stage.joint]]\nblocks = [\"pier\", \"ground\"]\n"
-                       "compressive_strength = 1e6\n",
-                   "out"),
-            2);
-  EXPECT_THAT(faults_, HasSubstr("compressive_strength in an analysis with stages"));
+TEST_F(CrushingRun, AnalysesWithoutCrushingRefuseTheKey) {
+  for (const char* analysis :
+       {"[analysis]\ntype = \"pushover\"\npushover = { direction = [1, 0, 0], limit = 0.1 }",
+        "[analysis]\ntype = \"thrust\"\nmovement = { supports = [\"ground\"] }"}) {
+    EXPECT_EQ(run_of(with_analysis(analysis, "compressive_strength = 1e6"), "out"), 2) << analysis;
+    EXPECT_THAT(faults_, HasSubstr(": error: compressive_strength in a")) << analysis;
+  }
+}
+
+TEST_F(CrushingRun, SpringsThatCrushHaveNoDilation) {
+  for (const char* analysis :
+       {"[analysis]\ntype = \"static\"", "[analysis]\nend_time = 1\ntime_step = 0.1"}) {
+    EXPECT_EQ(run_of(with_analysis(analysis, "compressive_strength = 1e6\ndilation_angle = 5"), "out"), 2);
+    EXPECT_THAT(faults_, HasSubstr("error: dilation_angle beside compressive_strength"));
+  }
+}
+
+TEST_F(CrushingRun, AStaticAnalysisStandsAndMovesWhereTheStressBlockSays) {
+  // V h = W (b - w)/2 with w = W/(f t) = 0.1 m: V = 0.4 W b/h in half of the width.
+  const double weight = 800.0 * g, strength = weight / (0.1 * 0.4);
+  const double limit = weight * 0.2 / 2.0;
+  for (const double share : {0.98, 1.02}) {
+    std::string scene =
+        with_analysis("[analysis]\ntype = \"static\"",
+                      "normal_stiffness = 1e12\ncompressive_strength = " + std::to_string(strength));
+    const std::string force = "force = [1000";
+    scene.replace(scene.find(force), force.size(), "force = [" + std::to_string(share * limit));
+    ASSERT_EQ(run_of(scene, "out"), 0) << faults_;
+    EXPECT_EQ(summary("out").at("status"), share < 1.0 ? "equilibrium" : "moving") << share;
+  }
 }
 
 }  // namespace
