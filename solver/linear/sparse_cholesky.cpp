@@ -2,35 +2,15 @@
 
 #include <cholmod.h>
 
-#include <mutex>
 #include <new>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "solver/linear/blas_memory.hpp"
-
-// OpenBLAS would use all cores for small fronts, and the order of sums would depend on their number. CHOLMOD would
-// start four threads for loops that take less time than that.
-extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
-extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
+#include "solver/linear/blas_threads.hpp"
+#include "solver/linear/metis_use.hpp"
 
 namespace ashlar {
-namespace {
-
-/// CHOLMOD's loops and OpenBLAS in this thread only: the limit of nested teams is one of the calling thread.
-void keep_to_this_thread() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
-  });
-  thread_local bool limited = false;
-  if (limited) return;
-  if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);
-  limited = true;
-}
-
-}  // namespace
 
 struct SparseCholesky::Implementation {
   cholmod_common common;
@@ -86,7 +66,7 @@ struct SparseCholesky::Implementation {
 
   /// Simplicial factors do not use BLAS.
   [[nodiscard]] std::optional<BlasUse> blas_use() const {
-    keep_to_this_thread();
+    keep_blas_to_this_thread();
     std::optional<BlasUse> use;
     if (factor->is_super != 0) use.emplace();
     return use;
@@ -114,9 +94,15 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
   if (self.factored) return FactorStatus::success;
   cholmod_sparse view = self.view();
   if (!same_pattern) {
-    keep_to_this_thread();
+    keep_blas_to_this_thread();
     cholmod_free_factor(&self.factor, &self.common);
-    self.factor = cholmod_analyze(&view, &self.common);
+    {
+      // METIS is tried where a column of the factor has 500 entries or more on average.
+      constexpr int least_for_metis = 500;
+      std::optional<MetisUse> alone;
+      if (matrix.size >= least_for_metis) alone.emplace();
+      self.factor = cholmod_analyze(&view, &self.common);
+    }
     if (self.factor == nullptr) throw std::bad_alloc();
     self.cost_in_solves = self.common.fl / (4.0 * self.common.lnz);
     ++self.counts.analyses;
