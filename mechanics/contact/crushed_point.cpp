@@ -4,12 +4,6 @@
 
 namespace ashlar {
 
-double crush(const PointLaw& law, double normal, PointResponse& response) {
-  response.dilation = (law.crushing - normal) / law.normal_stiffness;
-  response.fractured = -law.crushing * response.dilation;
-  return law.crushing;
-}
-
 void set_mean_crushing(const PointLaw& law, double start, double end, MeanResponse& mean) {
   const auto force = [&](double gap) {
     const double normal = -law.normal_stiffness * gap;

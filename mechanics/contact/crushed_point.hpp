@@ -8,10 +8,6 @@
 
 namespace ashlar {
 
-/// Sets closure and dissipated energy of a point at the end of a step.
-/// @param normal trial force, N, > law.crushing. @return the force, N
-double crush(const PointLaw& law, double normal, PointResponse& response);
-
 /// Sets the mean normal force over a step, and its tangent. The force is linear between the gaps where it has kinks, so
 /// that its mean is that of trapezoids: its work is exactly the change of the spring's energy and P c.
 /// @param start,end gaps over the rest gap less the closure at the start of the step, m

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mechanics/contact/crushed_point.hpp"
+#include "mechanics/contact/point_force.hpp"
 #include "mechanics/contact/sliding_point.hpp"
 #include "mechanics/contact/softened_point.hpp"
 
@@ -32,67 +33,6 @@ PointLaw point_law(const JointLaw& law, double area, bool intact, double damage)
 
 namespace {
 
-/// Normal force in the friction law and its derivative by the normal force. Impulses count at most as much as the
-/// normal force, so that points with very small forces have no friction.
-struct RubbingForce {
-  double value;  ///< N
-  double slope;
-};
-
-RubbingForce rubbing_force(const PointLaw& law, double normal) {
-  const double pushing = std::max(normal, 0.0);
-  if (law.impulse_force > pushing) return {2.0 * pushing, 2.0};
-  if (law.impulse_force < -pushing) return {0.0, 0.0};
-  return {pushing + law.impulse_force, 1.0};
-}
-
-/// @param normal force, N. @param dilation tan(psi) in the step
-ShearBound shear_bound(const PointLaw& law, double normal, double dilation) {
-  const bool pushes = normal >= 0.0;
-  if (law.held_limit >= 0.0)
-    return {law.held_limit + dilation * std::max(normal, 0.0), pushes ? dilation : 0.0};
-  const RubbingForce rubbing = rubbing_force(law, normal);
-  return {rubbing.value * law.friction + law.cohesion, pushes ? rubbing.slope * law.friction : 0.0};
-}
-
-/// True if a trial shear force is within the limit but for rounding. Without friction no point is locked.
-bool is_locked(const PointLaw& law, double trial, double limit) {
-  const bool smooth = law.held_limit >= 0.0 ? law.held_limit == 0.0 && law.dilation.tangent == 0.0
-                                            : law.friction == 0.0 && law.cohesion == 0.0;
-  return trial <= (smooth ? limit : limit + (law.shear_stiffness + law.dashpots.shear) * law.rounding);
-}
-
-/// Reduces a trial shear force to the limit. @param length of the trial
-Eigen::Vector2d within(double limit, const Eigen::Vector2d& trial, double length) {
-  return length > limit ? Eigen::Vector2d(limit / length * trial) : trial;
-}
-
-/// tan(psi) over a step and its decrease with the gap at its end.
-struct StepDilation {
-  double tangent;
-  double fall;  ///< 1/m
-
-  /// Derivative of the dilated gap by the gap, for a point with this slip.
-  [[nodiscard]] double lever(double slip) const { return 1.0 + slip * fall; }
-};
-
-/// @param gap at the end of the step, without dilation
-StepDilation step_dilation(const Dilation& dilation, double gap) {
-  if (!(dilation.landing_from > 0.0)) return {dilation.tangent, 0.0};
-  if (!(gap < 0.0)) return {0.0, 0.0};
-  const double way = dilation.landing_from - gap;
-  return {dilation.tangent * -gap / way, dilation.tangent * dilation.landing_from / (way * way)};
-}
-
-double normal_resistance(const PointLaw& law) {
-  return law.normal_stiffness + law.dashpots.normal;
-}
-
-/// Gap for a dashpot: without a bond it acts below the surface only.
-double damped_gap(const PointLaw& law, double gap) {
-  return law.tension > 0.0 ? gap : std::min(gap, 0.0);
-}
-
 /// Energy dissipated by the normal dashpot over a step, J, for a spring with force `spring` at its end. The spring
 /// may replace the compressive force of the dashpot up to its own: all of it if blocks separate below the surface.
 double taken_by_normal(const PointLaw& law, double spring, double force, double gap) {
@@ -102,24 +42,18 @@ double taken_by_normal(const PointLaw& law, double spring, double force, double 
 }  // namespace
 
 double trial_normal(const PointLaw& law, double gap) {
-  const double normal = law.normal_multiplier - normal_resistance(law) * gap;
-  return law.dashpots.normal > 0.0 ? normal + law.dashpots.normal * damped_gap(law, law.dashpots.start_gap)
-                                   : normal;
+  return normal_at(law, gap);
 }
 
 namespace {
 
-/// Sets force and energies of the normal spring and its dashpot at the end of a step. @param gap over the rest gap
-void set_normal(const PointLaw& law, double gap, double normal, bool open, PointResponse& response) {
-  const bool yields = law.yields() && normal < -law.tension;
-  if (!open) {
-    response.force[0] = std::max(normal, -law.tension);
-    response.tangent(0, 0) = yields || response.fractured > 0.0 ? 0.0 : normal_resistance(law);
-  }
+/// Sets energies of the normal spring and its dashpot at the end of a step. @param gap over the rest gap
+void set_normal_energy(const PointLaw& law, double gap, const PointForce& at, PointResponse& response) {
   const bool damps = law.dashpots.normal > 0.0;
-  const bool strained = damps ? gap < 0.0 || (law.tension > 0.0 && !open) : response.force[0] != 0.0;
+  const bool strained = damps ? gap < 0.0 || (law.tension > 0.0 && !at.parted) : response.force[0] != 0.0;
   if (law.augmented || !strained) return;
   // The potential of a force that yields goes on linearly.
+  const bool yields = law.yields() && at.normal < -law.tension;
   const double elastic = yields ? law.tension / law.normal_stiffness : gap;
   response.normal_energy =
       0.5 * law.normal_stiffness * elastic * elastic + (yields ? law.tension * (gap - elastic) : 0.0);
@@ -139,63 +73,28 @@ void set_shear_energy(const PointLaw& law, const Eigen::Vector2d& slip, PointRes
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
   if (law.bond.softens()) return softened_response(law, gap, slip);
-  PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
-  double normal = trial_normal(law, gap);
-  if (normal > law.crushing) normal = crush(law, normal, response);
-  const double resistance = law.shear_stiffness + law.dashpots.shear;
-  Eigen::Vector2d trial = law.shear_multiplier - resistance * slip;
-  if (law.dashpots.shear > 0.0) trial += law.dashpots.shear * law.dashpots.start_slip;
-  const double length = trial.norm();
-  const StepDilation dilation = step_dilation(law.dilation, gap);
-  const bool locked = is_locked(law, length, shear_bound(law, normal, dilation.tangent).value);
-  double slid = 0.0;
-  if (!locked && dilation.tangent > 0.0 && resistance > 0.0) {
-    const double lift = normal_resistance(law) * dilation.tangent;
-    slid = plastic_slip(length, resistance, [&](double way) {
-      const ShearBound bound = shear_bound(law, normal + lift * way, dilation.tangent);
-      return ShearBound{bound.value, bound.slope * lift};
-    });
-    normal += lift * slid;
-  }
-  const bool open = !law.yields() && normal < -(law.tension + normal_resistance(law) * law.rounding);
-  if (!open && slid > 0.0) response.dilation = dilation.tangent * slid;
-  set_normal(law, gap - response.dilation, normal, open, response);
-  if (open && law.held_limit <= 0.0 && !law.bridged) return response;
-  const ShearBound bound = shear_bound(law, normal, dilation.tangent);
-  if (locked) {
-    response.state = ContactState::locked;
-    response.force.tail<2>() = within(bound.value, trial, length);
-    response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(resistance);
-    set_shear_energy(law, slip, response);
-    return response;
-  }
-  response.state = ContactState::sliding;
-  response.direction = trial / length;
-  response.force.tail<2>() = bound.value * response.direction;
-  // A closed point without force has friction once it is compressed.
-  const double bound_slope = open ? 0.0 : shear_bound(law, response.force[0], dilation.tangent).slope;
-  const double slope = response.tangent(0, 0) * dilation.lever(slid);
-  const Coupling coupling =
-      tangent_of({slope, bound_slope * slope, resistance, dilation.tangent / dilation.lever(slid),
-                  bound.value / length, response.direction},
-                 response.tangent);
-  if (law.held_limit < 0.0) response.coupling = coupling;
+  const PointForce at = point_force(law, gap, slip);
+  const PointDerivative derivative = point_derivative(law, at);
+  PointResponse response{at.state, at.force, derivative.tangent, 0.0, 0.0};
+  response.coupling = derivative.coupling;
+  if (!at.parted) response.dilation = at.dilation.tangent * at.slid - at.closure;
+  if (at.closure > 0.0) response.fractured = law.crushing * at.closure;
+  set_normal_energy(law, gap - response.dilation, at, response);
+  if (at.state == ContactState::locked) set_shear_energy(law, slip, response);
+  if (at.state != ContactState::sliding) return response;
+  response.direction = at.trial / at.length;
   if (law.shear_stiffness > 0.0)
-    set_shear_energy(law,
-                     (law.dashpots.shear * law.dashpots.start_slip - response.force.tail<2>()) / resistance,
-                     response);
+    set_shear_energy(
+        law,
+        (law.dashpots.shear * law.dashpots.start_slip - response.force.tail<2>()) / shear_resistance(law),
+        response);
   return response;
 }
 
 MeanResponse end_response(const PointLaw& law, const PointResponse& end, double gap) {
-  if (law.bond.softens()) return {end.force, end.tangent, end.coupling, softened_limit(law, end)};
-  double limit = 0.0;
-  if (end.state != ContactState::open) {
-    const double dilation = step_dilation(law.dilation, gap).tangent;
-    limit = law.held_limit >= 0.0 ? law.held_limit : shear_bound(law, end.force[0], dilation).value;
-    if (law.held_limit < 0.0 && dilation > 0.0)
-      limit = std::max(0.0, limit - dilation * std::max(end.force[0], 0.0));
-  }
+  const double limit = law.bond.softens()
+                           ? softened_limit(law, end)
+                           : limit_at(law, end.state, end.force[0], step_dilation(law, gap).tangent);
   return {end.force, end.tangent, end.coupling, limit};
 }
 
@@ -325,7 +224,7 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
   if (law.dashpots.shear > 0.0) trial -= law.dashpots.shear * way;
   const double length = trial.norm();
-  const StepDilation dilation = step_dilation(law.dilation, end_place[0]);
+  const StepDilation dilation = step_dilation(law, end_place[0]);
   const auto normal_at = [&](double slip) {
     return mean_normal(law, start, start_place[0], end_place[0] - dilation.tangent * slip, dilation.tangent);
   };

@@ -144,6 +144,8 @@ struct PointLaw {
 
   /// True if tension is bounded by a plateau of the normal force.
   [[nodiscard]] bool yields() const { return is_static && tension > 0.0 && tension <= residual[2]; }
+  /// True if pressure has a plastic cap.
+  [[nodiscard]] bool crushes() const { return crushing < std::numeric_limits<double>::infinity(); }
   /// True if its strength can fail.
   [[nodiscard]] bool weakens() const {
     return friction > residual[0] || cohesion > residual[1] || tension > residual[2];

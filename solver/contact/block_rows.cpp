@@ -1,5 +1,7 @@
 #include "solver/contact/block_rows.hpp"
 
+#include <algorithm>
+
 namespace ashlar {
 namespace {
 
@@ -19,27 +21,32 @@ AffineValues as_affine(const Eigen::MatrixXd& values) {
   return {values.data(), values.rows(), affine};
 }
 
-/// Phi' diag(t) Phi of two affine blocks for each t of the stiffnesses, as tangent() of all unknowns.
+/// Phi' diag(t) Phi of two affine blocks for each t of the stiffnesses, as tangent() of all unknowns. One t after the
+/// other: the sums of one fit into registers.
 Eigen::MatrixXd affine_tangent(const PointStiffnesses& stiffnesses, const AffineValues& of_a,
                                const AffineValues& of_b) {
   using Square = Eigen::Matrix<double, affine, affine>;
-  std::array<Square, 6> sums;
-  sums.fill(Square::Zero());
-  for (Eigen::Index k = 0; k < stiffnesses.cols(); ++k) {
-    const Square outer = of_a.row(k).transpose() * of_b.row(k);
-    std::size_t n = 0;
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i <= j; ++i) sums[n++] += stiffnesses(3 * j + i, k) * outer;
-  }
-  Eigen::MatrixXd result(3 * affine, 3 * affine);
-  std::size_t n = 0;
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i <= j; ++i) {
-      result.block<affine, affine>(affine * i, affine * j) = sums[n];
-      if (i < j) result.block<affine, affine>(affine * j, affine * i) = sums[n];
-      ++n;
+  constexpr Eigen::Index together = 32;  // points whose products stay in the cache
+  std::array<Square, together> products;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * affine, 3 * affine);
+  for (Eigen::Index first = 0; first < stiffnesses.cols(); first += together) {
+    const Eigen::Index count = std::min(together, stiffnesses.cols() - first);
+    for (Eigen::Index k = 0; k < count; ++k)
+      products[static_cast<std::size_t>(k)] = of_a.row(first + k).transpose() * of_b.row(first + k);
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i <= j; ++i) {
+        auto part = result.block<affine, affine>(affine * i, affine * j);
+        Square sum = part;
+        for (Eigen::Index k = 0; k < count; ++k)
+          sum += stiffnesses(3 * j + i, first + k) * products[static_cast<std::size_t>(k)];
+        part = sum;
+      }
     }
   }
+  for (int j = 1; j < 3; ++j)
+    for (int i = 0; i < j; ++i)
+      result.block<affine, affine>(affine * j, affine * i) =
+          result.block<affine, affine>(affine * i, affine * j);
   return result;
 }
 

@@ -205,16 +205,11 @@ ContactPair ContactPair::at_end(const BlockInStep& a, const BlockInStep& b) cons
   return pair;
 }
 
-double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
-                                   const std::vector<PointLaw>& laws) const {
-  double stiffness = 0.0;
-  for (const PointLaw& law : laws)
-    stiffness = std::max(
-        {stiffness, law.normal_stiffness + law.dashpots.normal, law.shear_stiffness + law.dashpots.shear});
+double ContactPair::force_rounding(double stiffness, double change_a, double change_b) const {
   const double row_a = rows_.longest_of_a();
   const double row_b = rows_.longest_of_b();
   return 2.0 * std::numeric_limits<double>::epsilon() * stiffness *
-         (row_a * row_a * ya.norm() + row_b * row_b * yb.norm());
+         (row_a * row_a * change_a + row_b * row_b * change_b);
 }
 
 double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
@@ -259,6 +254,29 @@ void ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, 
   }
   rows_.set_forces(forces, response);
   rows_.set_shifts(moved, ya, yb, forces, response);
+}
+
+double ContactPair::press(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                          std::span<const FrequentLaw> laws, std::span<ContactState> states,
+                          Eigen::Ref<Eigen::Matrix3Xd> places, PairResponse& response) const {
+  const Eigen::Matrix3Xd moved = motion(ya, yb);
+  places = start_ + moved;
+  if (rows_.bent().size() > 0) places.row(0) += rows_.bent();
+  response.points.clear();
+  response.means.clear();
+  Eigen::VectorXd forces(places.size());
+  double in_doubt = 0.0;
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const PointForce at = point_force(laws[k], places(0, column), places.col(column).tail<2>());
+    states[k] = at.state;
+    forces.segment<3>(3 * column) = at.force;
+    if (!at.parted && at.force[0] == 0.0 && laws[k].normal_stiffness > 0.0)
+      in_doubt += std::max(0.0, -at.normal);
+  }
+  rows_.set_forces(forces, response);
+  rows_.set_shifts(moved, ya, yb, forces, response);
+  return std::max(rows_.longest_of_a(), rows_.longest_of_b()) * in_doubt;
 }
 
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mechanics/contact/contact_memory.hpp"
@@ -67,9 +68,9 @@ class ContactPair {
   [[nodiscard]] bool holds(std::size_t point) const { return tied() || laws_[point].tension > 0.0; }
   /// True if sliding causes dilation.
   [[nodiscard]] bool dilates() const { return kind_.dilation > 0.0; }
-  /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
-  [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
-                                      const std::vector<PointLaw>& laws) const;
+  /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param stiffness largest of a
+  /// spring, N/m. @param change_a,change_b norms of the changes
+  [[nodiscard]] double force_rounding(double stiffness, double change_a, double change_b) const;
   /// Spurious tension at points closed only within rounding error, in the same norm. @param response to ya and yb
   [[nodiscard]] double force_in_doubt(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                       const std::vector<PointLaw>& laws, const PairResponse& response) const;
@@ -103,6 +104,11 @@ class ContactPair {
                                      bool averaged) const {
     return respond(ya, yb, averaged, laws_);
   }
+  /// Forces of the response alone, of frequent laws at the end of the step; `points` and `means` are empty after it.
+  /// @param laws (#points). @param states of the points (#points) and places(), are set. @return force_in_doubt()
+  double press(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, std::span<const FrequentLaw> laws,
+               std::span<ContactState> states, Eigen::Ref<Eigen::Matrix3Xd> places,
+               PairResponse& response) const;
   /// Gap relative to the rest gap and trial slip of every point at the end of the step, m. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd places(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
     return after(motion(ya, yb));
@@ -154,7 +160,9 @@ class ContactPair {
   [[nodiscard]] double start_energy() const;
   [[nodiscard]] SpringEnergy start_energies() const;
 
-  [[nodiscard]] PairTangent tangent(const PairResponse& response) const { return rows_.tangent(response); }
+  [[nodiscard]] PairTangent tangent(const PairResponse& response) const {
+    return rows_.tangent(derivatives_of(response));
+  }
 
   [[nodiscard]] const PairRows& rows() const { return rows_; }
 

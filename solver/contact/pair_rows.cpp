@@ -56,6 +56,12 @@ MeanDeformation mean_deformation(const ContactBody& body) {
 
 }  // namespace
 
+std::vector<PointDerivative> derivatives_of(const PairResponse& response) {
+  std::vector<PointDerivative> derivatives;
+  for (const MeanResponse& mean : response.means) derivatives.push_back({mean.tangent, mean.coupling});
+  return derivatives;
+}
+
 void MeanDeformation::lever(const Eigen::VectorXd& change, const Eigen::Matrix3d& m,
                             Eigen::VectorXd& result) const {
   const Eigen::MatrixX3d& gradients = parts->mean_gradients;
@@ -201,8 +207,9 @@ void PairRows::set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd&
   if (!free_pair_) return;
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // r f', less that of normal forces along the normal
   for (Eigen::Index k = 0; k < count_; ++k) {
-    Vector3 r = apart_.col(k) + 0.5 * motion.col(k);
     Vector3 along = forces.segment<3>(3 * k);
+    if (along.isZero(0.0)) continue;
+    Vector3 r = apart_.col(k) + 0.5 * motion.col(k);
     const Vector3 across(0.0, r[1], r[2]);
     const double push = std::exchange(along[0], 0.0);
     moment += push * (frame(k) * across) * frame(k).col(0).transpose() +
@@ -213,22 +220,22 @@ void PairRows::set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd&
   deformation_b_.lever(yb, half, response.shift_on_b);
 }
 
-PointStiffnesses PairRows::stiffnesses(const PairResponse& response) const {
+PointStiffnesses PairRows::stiffnesses(std::span<const PointDerivative> derivatives) const {
   PointStiffnesses result(9, count_);
   for (Eigen::Index k = 0; k < count_; ++k) {
-    const Eigen::Matrix3d along_axes =
-        frame(k) * response.means[static_cast<std::size_t>(k)].tangent * frame(k).transpose();
+    const Eigen::Matrix3d& tangent = derivatives[static_cast<std::size_t>(k)].tangent;
+    const Eigen::Matrix3d along_axes = frame(k) * tangent * frame(k).transpose();
     result.col(k) = along_axes.reshaped();
   }
   return result;
 }
 
-PointStiffnesses PairRows::couplings(const PairResponse& response) const {
-  const auto coupled = [](const MeanResponse& mean) { return !mean.coupling.force.isZero(0.0); };
-  if (std::none_of(response.means.begin(), response.means.end(), coupled)) return {};
+PointStiffnesses PairRows::couplings(std::span<const PointDerivative> derivatives) const {
+  const auto coupled = [](const PointDerivative& point) { return !point.coupling.force.isZero(0.0); };
+  if (std::none_of(derivatives.begin(), derivatives.end(), coupled)) return {};
   PointStiffnesses result(9, count_);
   for (Eigen::Index k = 0; k < count_; ++k) {
-    const Coupling& coupling = response.means[static_cast<std::size_t>(k)].coupling;
+    const Coupling& coupling = derivatives[static_cast<std::size_t>(k)].coupling;
     const Eigen::Matrix3d along_axes = frame(k) * coupling.force * (frame(k) * coupling.by).transpose();
     result.col(k) = along_axes.reshaped();
   }
@@ -248,12 +255,12 @@ void PairRows::add_product(const PointStiffnesses& stiffnesses, const Eigen::Vec
   if (on_b.size() > 0) values_->b.add_force(moved, -1.0, on_b);
 }
 
-PairTangent PairRows::tangent(const PairResponse& response) const {
+PairTangent PairRows::tangent(std::span<const PointDerivative> derivatives) const {
   std::vector<Eigen::Index> active;
-  for (std::size_t k = 0; k < response.means.size(); ++k) {
-    if (!response.means[k].tangent.isZero(0.0)) active.push_back(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < derivatives.size(); ++k) {
+    if (!derivatives[k].tangent.isZero(0.0)) active.push_back(static_cast<Eigen::Index>(k));
   }
-  const PointStiffnesses stiffnesses = this->stiffnesses(response)(Eigen::all, active);
+  const PointStiffnesses stiffnesses = this->stiffnesses(derivatives)(Eigen::all, active);
   const bool all = static_cast<Eigen::Index>(active.size()) == count_;
   const BlockRows some_a = all || values_->a.fixed() ? BlockRows() : values_->a.at_points(active);
   const BlockRows some_b = all || values_->b.fixed() ? BlockRows() : values_->b.at_points(active);

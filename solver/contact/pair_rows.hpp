@@ -4,11 +4,12 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/point_force.hpp"
 #include "mechanics/contact/tie.hpp"
 #include "solver/contact/block_rows.hpp"
 
@@ -26,12 +27,20 @@ struct PairResponse {
 
   [[nodiscard]] Eigen::VectorXd total_on_a() const { return sum(force_on_a, shift_on_a); }
   [[nodiscard]] Eigen::VectorXd total_on_b() const { return sum(force_on_b, shift_on_b); }
+  /// total_on_a() or total_on_b() in memory that is there.
+  void set_total(bool on_a, Eigen::VectorXd& total) const {
+    total = on_a ? force_on_a : force_on_b;
+    if (const Eigen::VectorXd& shift = on_a ? shift_on_a : shift_on_b; shift.size() > 0) total += shift;
+  }
 
  private:
   static Eigen::VectorXd sum(const Eigen::VectorXd& force, const Eigen::VectorXd& shift) {
     return shift.size() > 0 ? Eigen::VectorXd(force + shift) : force;
   }
 };
+
+/// Derivatives of the points of a response.
+[[nodiscard]] std::vector<PointDerivative> derivatives_of(const PairResponse& response);
 
 /// Mean deformation of a free block over a step.
 struct MeanDeformation {
@@ -116,12 +125,13 @@ class PairRows {
   void set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                   const Eigen::VectorXd& forces, PairResponse& response) const;
 
-  [[nodiscard]] PairTangent tangent(const PairResponse& response) const;
-  /// MeanResponse::tangent of each point, along x, y, z: symmetric.
-  [[nodiscard]] PointStiffnesses stiffnesses(const PairResponse& response) const;
-  /// MeanResponse::coupling of each point, along x, y, z: the unsymmetric part of the Jacobian of -force. Without
-  /// columns if no point has any
-  [[nodiscard]] PointStiffnesses couplings(const PairResponse& response) const;
+  /// @param derivatives here and below (#points)
+  [[nodiscard]] PairTangent tangent(std::span<const PointDerivative> derivatives) const;
+  /// Tangent of each point, along x, y, z: symmetric.
+  [[nodiscard]] PointStiffnesses stiffnesses(std::span<const PointDerivative> derivatives) const;
+  /// Coupling of each point, along x, y, z: the unsymmetric part of the Jacobian of -force. Without columns if no
+  /// point has any
+  [[nodiscard]] PointStiffnesses couplings(std::span<const PointDerivative> derivatives) const;
   /// Adds the product of point stiffnesses and changes of the unknowns: forces on the unknowns of a and b, N, with
   /// the sign of the tangent. @param da,db,on_a,on_b (unknowns), empty for fixed blocks
   void add_product(const PointStiffnesses& stiffnesses, const Eigen::VectorXd& da, const Eigen::VectorXd& db,

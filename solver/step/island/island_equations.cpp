@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/parallel_for.hpp"
 
@@ -35,6 +36,10 @@ IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies
     laws_.push_back(pairs[at(pair)].laws());
     places_.push_back({place[at(pairs[at(pair)].a())], place[at(pairs[at(pair)].b())]});
   }
+  pairs_of_.resize(island.bodies.size());
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    for (const int body : places_[k])
+      if (body >= 0) pairs_of_[at(body)].push_back(k);
   std::size_t own_pairs = 0;
   for (std::size_t k = 0; k < island.pairs.size(); ++k) own_pairs += sums.owns_pair(k) ? 1 : 0;
   all_pairs_ = static_cast<std::size_t>(sums.sum(static_cast<double>(own_pairs)));
@@ -76,39 +81,101 @@ void IslandProblem::respond() {
     BodyStep& body = bodies_[at(island_.bodies[k])];
     body.elastic = body.model->elastic(taken_at(body));
   });
-  responses_.resize(pairs());
+  renew_contacts();
   parallel_for(threads(), pairs(), [&](std::size_t k) {
-    const ContactPair& one = pair(k);
-    one.respond(bodies_[at(one.a())].change, bodies_[at(one.b())].change, scheme_.mean_contacts, laws_[k],
-                responses_[k]);
+    const std::span<const FrequentLaw> laws = table_.frequent(k);
+    if (laws.empty()) {
+      pair(k).respond(change_a(k), change_b(k), scheme_.mean_contacts, laws_[k], contacts_.pairs[k]);
+      note_points(k);
+    } else {
+      const std::span<ContactState> states(contacts_.states.data() + table_.first_point(k), laws.size());
+      contacts_.in_doubt[k] = pair(k).press(change_a(k), change_b(k), laws, states,
+                                            places_of_points(k, laws.size()), contacts_.pairs[k]);
+    }
   });
   bolts_.respond(scheme_.mean_contacts, bolts_.size() < 32 ? 1 : settings_.threads);
 }
 
+void IslandProblem::renew_contacts() {
+  if (std::exchange(laws_changed_, false)) table_.set(laws_, scheme_.mean_contacts);
+  contacts_.complete = false;
+  contacts_.derived.assign(pairs(), 0);
+  contacts_.pairs.resize(pairs());
+  contacts_.in_doubt.resize(pairs());
+  contacts_.states.resize(table_.first_point(pairs()));
+  contacts_.places.resize(3, static_cast<Eigen::Index>(contacts_.states.size()));
+  derivatives_.resize(contacts_.states.size());
+}
+
+std::span<const PointDerivative> IslandProblem::derivatives(std::size_t k) const {
+  const std::span<PointDerivative> result(derivatives_.data() + table_.first_point(k), laws_[k].size());
+  if (std::exchange(contacts_.derived[k], 1) != 0) return result;
+  const PairResponse& response = contacts_.pairs[k];
+  if (!response.means.empty()) {
+    std::ranges::copy(derivatives_of(response), result.begin());
+    return result;
+  }
+  const std::span<const FrequentLaw> laws = table_.frequent(k);
+  const auto places = places_of_points(k, laws.size());
+  for (std::size_t n = 0; n < laws.size(); ++n) {
+    const auto at = places.col(static_cast<Eigen::Index>(n));
+    result[n] = point_derivative(laws[n], point_force(laws[n], at[0], at.tail<2>()));
+  }
+  return result;
+}
+
+void IslandProblem::note_points(std::size_t k) {
+  const std::vector<PointResponse>& points = contacts_.pairs[k].points;
+  for (std::size_t n = 0; n < points.size(); ++n)
+    contacts_.states[table_.first_point(k) + n] = points[n].state;
+  contacts_.in_doubt[k] = pair(k).force_in_doubt(change_a(k), change_b(k), laws_[k], contacts_.pairs[k]);
+}
+
+void IslandProblem::set_responses(std::vector<PairResponse> responses) {
+  renew_contacts();
+  contacts_.pairs = std::move(responses);
+  contacts_.complete = true;
+  for (std::size_t k = 0; k < pairs(); ++k) note_points(k);
+}
+
+const std::vector<PairResponse>& IslandProblem::responses() const {
+  if (!contacts_.complete) {
+    parallel_for(threads(), pairs(), [&](std::size_t k) {
+      if (!table_.frequent(k).empty())
+        pair(k).respond(change_a(k), change_b(k), scheme_.mean_contacts, laws_[k], contacts_.pairs[k]);
+    });
+    contacts_.complete = true;
+  }
+  return contacts_.pairs;
+}
+
 void IslandProblem::add_force(Residual& residual, int place, const Eigen::VectorXd& on_unknowns) const {
-  const Eigen::VectorXd force = bodies_[at(island_.bodies[at(place)])].in_equations(on_unknowns);
-  residual.force.segment(solver_.matrix.offset(place), force.size()) += force;
-  residual.scales[at(place)] = std::max(residual.scales[at(place)], force.norm());
+  const auto add = [&](const Eigen::VectorXd& force) {
+    residual.force.segment(solver_.matrix.offset(place), force.size()) += force;
+    residual.scales[at(place)] = std::max(residual.scales[at(place)], force.norm());
+  };
+  const BodyStep& body = this->body(at(place));
+  if (body.model->rigid())
+    add(body.in_equations(on_unknowns));
+  else
+    add(on_unknowns);
 }
 
 void IslandProblem::add_contacts(Residual& residual, std::vector<ForceErrors>& errors) const {
-  std::vector<ForceErrors> of_pairs(pairs());
+  std::vector<double> roundings(pairs());
   parallel_for(threads(), pairs(), [&](std::size_t k) {
-    const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
-    const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
-    of_pairs[k] = {pair(k).force_rounding(ya, yb, laws_[k]),
-                   pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k])};
+    roundings[k] = pair(k).force_rounding(table_.stiffness(k), change_a(k).norm(), change_b(k).norm());
   });
-  for (std::size_t k = 0; k < pairs(); ++k) {
-    const auto& [a, b] = places_[k];
-    if (a >= 0) add_force(residual, a, responses_[k].total_on_a());
-    if (b >= 0) add_force(residual, b, responses_[k].total_on_b());
-    for (const int body : {a, b}) {
-      if (body < 0) continue;
-      errors[at(body)].rounding += of_pairs[k].rounding;
-      errors[at(body)].within_rounding += of_pairs[k].within_rounding;
+  parallel_for(threads(), bodies(), [&](std::size_t place) {
+    Eigen::VectorXd force;
+    for (const std::size_t k : pairs_of_[place]) {
+      const bool is_a = places_[k][0] == static_cast<int>(place);
+      contacts_.pairs[k].set_total(is_a, force);
+      add_force(residual, static_cast<int>(place), force);
+      errors[place].rounding += roundings[k];
+      errors[place].within_rounding += contacts_.in_doubt[k];
     }
-  }
+  });
 }
 
 void IslandProblem::add_bolts(Residual& residual, std::vector<ForceErrors>& errors) const {
@@ -193,21 +260,20 @@ void IslandProblem::recall(const Residual& residual) const {
 
 Eigen::VectorXd IslandProblem::contact_forces() const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
-  add_contact_forces(responses_, sum);
+  add_contact_forces(contacts_.pairs, sum);
   return sum;
 }
 
 void IslandProblem::add_contact_forces(const std::vector<PairResponse>& responses,
                                        Eigen::VectorXd& sum) const {
-  const auto add = [&](int place, const Eigen::VectorXd& force) {
-    if (place < 0) return;
-    const BodyStep& body = this->body(at(place));
-    sum.segment(solver_.matrix.offset(place), body.model->freedom()) += body.in_equations(force);
-  };
-  for (std::size_t k = 0; k < pairs(); ++k) {
-    add(places_[k][0], responses[k].total_on_a());
-    add(places_[k][1], responses[k].total_on_b());
-  }
+  parallel_for(threads(), bodies(), [&](std::size_t place) {
+    Eigen::VectorXd force;
+    auto of_body = sum.segment(solver_.matrix.offset(static_cast<int>(place)), body(place).model->freedom());
+    for (const std::size_t k : pairs_of_[place]) {
+      responses[k].set_total(places_[k][0] == static_cast<int>(place), force);
+      of_body += body(place).in_equations(force);
+    }
+  });
 }
 
 std::vector<Eigen::VectorXd> IslandProblem::changes(const Eigen::VectorXd& change) const {
@@ -245,36 +311,28 @@ void IslandProblem::set_guess(const std::vector<Eigen::VectorXd>& guess) {
 }
 
 Evaluation IslandProblem::set_aside() {
-  Evaluation result{guess(), {}, std::move(responses_), bolts_.set_aside()};
+  Evaluation result{guess(), {}, std::exchange(contacts_, {}), bolts_.set_aside()};
   for (const int index : island_.bodies) result.elastic.push_back(std::move(bodies_[at(index)].elastic));
-  responses_.clear();
   return result;
 }
 
 void IslandProblem::take_back(Evaluation evaluation) {
   set_guess(evaluation.guess);
-  responses_ = std::move(evaluation.responses);
+  contacts_ = std::move(evaluation.contacts);
+  contacts_.derived.assign(pairs(), 0);
   bolts_.take_back(std::move(evaluation.bolts));
   for (std::size_t k = 0; k < island_.bodies.size(); ++k)
     bodies_[at(island_.bodies[k])].elastic = std::move(evaluation.elastic[k]);
 }
 
-std::vector<ContactState> IslandProblem::states() const {
-  std::vector<ContactState> result;
-  for (const PairResponse& response : responses_) {
-    for (const PointResponse& point : response.points) result.push_back(point.state);
-  }
-  return result;
-}
-
 std::vector<double> IslandProblem::gaps(std::size_t k) const {
-  return pair(k).gaps(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change);
+  return pair(k).gaps(change_a(k), change_b(k));
 }
 
 double IslandProblem::given(std::size_t k) const {
-  const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
-  const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
-  return pair(k).spring_work(responses_[k], ya, yb) + pair(k).friction_work(responses_[k], laws_[k], ya, yb);
+  const Eigen::VectorXd &ya = change_a(k), &yb = change_b(k);
+  const PairResponse& response = responses()[k];
+  return pair(k).spring_work(response, ya, yb) + pair(k).friction_work(response, laws_[k], ya, yb);
 }
 
 BlockInStep IslandProblem::placed(const BodyStep& body) const {
@@ -289,8 +347,8 @@ double IslandProblem::left_out(std::size_t k) const {
   const Eigen::Matrix3Xd motion = pair(k).motion(a.change, b.change);
   const auto slip = [&](const Eigen::Matrix3Xd& way) {
     double most = 0.0;
-    for (std::size_t n = 0; n < responses_[k].points.size(); ++n) {
-      if (responses_[k].points[n].state == ContactState::open) continue;
+    for (std::size_t n = 0; n < laws_[k].size(); ++n) {
+      if (contacts_.states[table_.first_point(k) + n] == ContactState::open) continue;
       most = std::max(most, way.col(static_cast<Eigen::Index>(n)).tail<2>().norm());
     }
     return most;
@@ -328,13 +386,14 @@ bool IslandProblem::follow_contacts(double tolerance) {
 }
 
 void IslandProblem::hand_over(IslandResult& result) {
+  static_cast<void>(responses());
   for (auto& [k, pair] : replaced_) result.followed.emplace_back(island_.pairs[k], std::move(pair));
   for (std::size_t k = 0; k < bolts_.responses().size(); ++k) {
     const StepBoltResponse& response = bolts_.responses()[k];
     result.bolts.push_back({response, bolts_.bolt(k).work(response, bolts_.changes(k)),
                             bolts_.bolt(k).prescribed_work(response)});
   }
-  result.responses = std::move(responses_);
+  result.responses = std::move(contacts_.pairs);
   result.laws = std::move(laws_);
 }
 

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "geometry/index.hpp"
+#include "solver/step/island/contact_table.hpp"
 #include "solver/step/island/island.hpp"
 #include "solver/step/island/island_bolts.hpp"
 #include "solver/step/island/island_sums.hpp"
@@ -30,12 +32,22 @@ struct ForceErrors {
   double within_rounding = 0.0;  ///< of points that are closed only within rounding error
 };
 
+/// Contacts at a guess.
+struct ContactForces {
+  std::vector<PairResponse> pairs;   ///< of frequent laws without their points, until these are needed
+  std::vector<ContactState> states;  ///< of points
+  Eigen::Matrix3Xd places;           ///< ContactPair::places of points of frequent laws, m
+  std::vector<double> in_doubt;      ///< by pair: ContactPair::force_in_doubt, N
+  bool complete = false;             ///< with all points
+  std::vector<char> derived;         ///< by pair: true if its derivatives are known
+};
+
 /// A guess with its responses.
 struct Evaluation {
   std::vector<Eigen::VectorXd> guess;    ///< by body
   std::vector<ElasticResponse> elastic;  ///< by body
-  std::vector<PairResponse> responses;   ///< by pair
-  std::vector<StepBoltResponse> bolts;   ///< by bolt
+  ContactForces contacts;
+  std::vector<StepBoltResponse> bolts;  ///< by bolt
 };
 
 /// Motion of a body that the iteration of a step starts from.
@@ -57,7 +69,7 @@ class IslandProblem {
   /// Elastic and contact responses at the present guess.
   void respond();
   /// Sets responses other than those of the laws. @param responses of the island's pairs
-  void set_responses(std::vector<PairResponse> responses) { responses_ = std::move(responses); }
+  void set_responses(std::vector<PairResponse> responses);
   [[nodiscard]] Residual residual() const;
   /// Sets the residual of the last call of residual() to one computed earlier at the present guess.
   void recall(const Residual& residual) const;
@@ -82,7 +94,7 @@ class IslandProblem {
   [[nodiscard]] Evaluation set_aside();
   void take_back(Evaluation evaluation);
   /// States of all points at the last responses, in a fixed order.
-  [[nodiscard]] std::vector<ContactState> states() const;
+  [[nodiscard]] const std::vector<ContactState>& states() const { return contacts_.states; }
 
   [[nodiscard]] std::size_t bodies() const { return island_.bodies.size(); }
   [[nodiscard]] const BodyStep& body(std::size_t place) const { return bodies_[at(island_.bodies[place])]; }
@@ -106,10 +118,22 @@ class IslandProblem {
   void replace(std::size_t k, ContactPair pair) { replaced_.insert_or_assign(k, std::move(pair)); }
   /// Gaps of a pair's points at the present guess, m.
   [[nodiscard]] std::vector<double> gaps(std::size_t pair) const;
-  [[nodiscard]] const std::vector<PairResponse>& responses() const { return responses_; }
+  /// The last responses with all points: the first call after respond() computes them, outside of loops in parallel.
+  [[nodiscard]] const std::vector<PairResponse>& responses() const;
+  /// Derivatives of the forces of a pair's points at the last responses, computed by the first call for the pair. Pairs
+  /// may be called in parallel.
+  [[nodiscard]] std::span<const PointDerivative> derivatives(std::size_t pair) const;
   [[nodiscard]] const IslandBolts& bolts() const { return bolts_; }
-  [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
+  /// Laws that change: respond() has to follow.
+  [[nodiscard]] std::vector<std::vector<PointLaw>>& changing_laws() {
+    laws_changed_ = true;
+    return laws_;
+  }
   [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
+  /// Frequent laws of a pair's points as of the last responses; empty: others.
+  [[nodiscard]] std::span<const FrequentLaw> frequent_laws(std::size_t pair) const {
+    return table_.frequent(pair);
+  }
   [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
   /// Updates rows to the middle and gaps to the end of the step at the present guess (ContactPair::follow), for pairs
@@ -121,6 +145,21 @@ class IslandProblem {
   void hand_over(IslandResult& result);
 
  private:
+  /// Changes of a pair's blocks.
+  [[nodiscard]] const Eigen::VectorXd& change_a(std::size_t k) const {
+    return bodies_[at(pair(k).a())].change;
+  }
+  [[nodiscard]] const Eigen::VectorXd& change_b(std::size_t k) const {
+    return bodies_[at(pair(k).b())].change;
+  }
+  [[nodiscard]] auto places_of_points(std::size_t pair, std::size_t points) const {
+    return contacts_.places.middleCols(static_cast<Eigen::Index>(table_.first_point(pair)),
+                                       static_cast<Eigen::Index>(points));
+  }
+  /// Prepares for new responses.
+  void renew_contacts();
+  /// Sets states and forces in doubt of a pair from the response of its points.
+  void note_points(std::size_t k);
   /// Adds forces of pairs to a residual. @param errors by body: rounding error and force within rounding error, N
   void add_contacts(Residual& residual, std::vector<ForceErrors>& errors) const;
   void add_bolts(Residual& residual, std::vector<ForceErrors>& errors) const;
@@ -150,11 +189,16 @@ class IslandProblem {
   };
 
   std::vector<std::array<int, 2>> places_;  ///< by pair
+  /// Pairs of each body in their order: sums by body do not depend on threads.
+  std::vector<std::vector<std::size_t>> pairs_of_;
   std::map<std::size_t, ContactPair> replaced_;
   std::map<std::size_t, Followed> followed_;
-  std::vector<PairResponse> responses_;
+  mutable ContactForces contacts_;
+  mutable std::vector<PointDerivative> derivatives_;  ///< by point
   IslandBolts bolts_;
   std::vector<std::vector<PointLaw>> laws_;
+  bool laws_changed_ = true;  ///< since the table was made
+  ContactTable table_;
 };
 
 }  // namespace ashlar

@@ -1,5 +1,6 @@
 #include "solver/step/island/island_tangent.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -56,18 +57,22 @@ void IslandTangent::assemble(bool positive) {
       matrix.add_diagonal(static_cast<int>(k), weight_of_dashpots() * *body.dashpots);
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme.inertia);
   }
-  std::vector<PairTangent> tangents(problem_.pairs());
-  parallel_for(problem_.threads(), problem_.pairs(), [&](std::size_t k) {
-    const ContactPair& pair = problem_.pair(k);
-    tangents[k] = in_equations(pair.tangent(problem_.responses()[k]), problem_.block(pair.a()),
-                               problem_.block(pair.b()));
-  });
-  for (std::size_t k = 0; k < problem_.pairs(); ++k) {
-    const PairTangent& tangent = tangents[k];
-    const auto& [a, b] = problem_.places(k);
-    if (a >= 0) matrix.add_diagonal(a, tangent.aa);
-    if (b >= 0) matrix.add_diagonal(b, tangent.bb);
-    if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
+  // Few at a time, added in the order of pairs: tangents of all would take more memory than all points.
+  constexpr std::size_t together = 128;
+  std::vector<PairTangent> tangents(std::min(together, problem_.pairs()));
+  for (std::size_t first = 0; first < problem_.pairs(); first += together) {
+    const std::size_t count = std::min(together, problem_.pairs() - first);
+    parallel_for(problem_.threads(), count, [&](std::size_t n) {
+      const ContactPair& pair = problem_.pair(first + n);
+      tangents[n] = in_equations(pair.rows().tangent(problem_.derivatives(first + n)),
+                                 problem_.block(pair.a()), problem_.block(pair.b()));
+    });
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto& [a, b] = problem_.places(first + n);
+      if (a >= 0) matrix.add_diagonal(a, tangents[n].aa);
+      if (b >= 0) matrix.add_diagonal(b, tangents[n].bb);
+      if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangents[n].ab);
+    }
   }
   problem_.bolts().add_tangents(matrix);
   assembled_ = true;
@@ -120,7 +125,7 @@ bool IslandTangent::products_pay() const {
     };
     const double a = unknowns(problem_.places(k)[0]);
     const double b = unknowns(problem_.places(k)[1]);
-    const auto points = static_cast<double>(problem_.responses()[k].means.size());
+    const auto points = static_cast<double>(problem_.laws()[k].size());
     to_assemble += points * 2.0 / 3.0 * (a * a + a * b + b * b);
     product += points * 2.0 * (a + b);
   }
@@ -192,11 +197,11 @@ std::optional<Eigen::VectorXd> IslandTangent::solve_with_old(const Eigen::Vector
                                                              bool coupled) const {
   const IterationSettings& settings = problem_.settings().iteration;
   std::vector<PairProduct> products = products_of([&](std::size_t k) {
-    const PairResponse& response = problem_.responses()[k];
+    const std::span<const PointDerivative> derivatives = problem_.derivatives(k);
     const PairRows& rows = problem_.pair(k).rows();
     PointStiffnesses points;
-    if (!assembled_) points = rows.stiffnesses(response);
-    return coupled ? sum(std::move(points), rows.couplings(response)) : points;
+    if (!assembled_) points = rows.stiffnesses(derivatives);
+    return coupled ? sum(std::move(points), rows.couplings(derivatives)) : points;
   });
   const auto preconditioned = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = assembled_ ? times(solver_.matrix.matrix(), x) : Eigen::VectorXd::Zero(x.size());
@@ -230,7 +235,7 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   std::vector<PairProduct> couplings;
   if (coupled)
     couplings = products_of(
-        [&](std::size_t k) { return problem_.pair(k).rows().couplings(problem_.responses()[k]); });
+        [&](std::size_t k) { return problem_.pair(k).rows().couplings(problem_.derivatives(k)); });
   if (!problem_.sums().any(!couplings.empty())) return solver_.factor->solve(right_side);
   const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());

@@ -33,7 +33,7 @@ bool Augmentation::stiffen(IslandProblem& problem) {
   bool stiffer = false;
   for (std::size_t pair = 0; pair < problem.pairs(); ++pair) {
     for (std::size_t k = 0; k < problem.laws()[pair].size(); ++k) {
-      PointLaw& law = problem.laws()[pair][k];
+      PointLaw& law = problem.changing_laws()[pair][k];
       const double gap = problem.pair(pair).points()[k].gap - problem.pair(pair).dilation_before(k);
       const double found = compression_of(law, problem.responses()[pair].points[k], gap, problem.settings());
       if (found <= 1.0) continue;
@@ -53,7 +53,7 @@ bool Augmentation::lower_multipliers(IslandProblem& problem) {
   bool lowered = false;
   beyond_ *= 2.0;  // 1 the first time
   for (std::size_t pair = 0; pair < problem.pairs(); ++pair) {
-    std::vector<PointLaw>& laws = problem.laws()[pair];
+    std::vector<PointLaw>& laws = problem.changing_laws()[pair];
     if (laws.empty() || !laws.front().augmented) continue;
     const std::vector<PointResponse>& points = problem.responses()[pair].points;
     double force = 0.0;

@@ -38,11 +38,14 @@ double ContactLine::work(double share) const {
     const auto& [start, way] = lines_[k];
     if (!problem_.sums().owns_pair(k)) return;
     const std::vector<PointLaw>& laws = problem_.laws()[k];
+    const std::span<const FrequentLaw> frequent = problem_.frequent_laws(k);
     for (std::size_t point = 0; point < laws.size(); ++point) {
       const auto column = static_cast<Eigen::Index>(point);
       const Eigen::Vector3d place = start.col(column) + share * way.col(column);
-      by_pair[k] +=
-          problem_.pair(k).respond(point, place, averaged, laws[point]).mean.force.dot(way.col(column));
+      const Eigen::Vector3d force =
+          frequent.empty() ? problem_.pair(k).respond(point, place, averaged, laws[point]).mean.force
+                           : point_force(frequent[point], place[0], place.tail<2>()).force;
+      by_pair[k] += force.dot(way.col(column));
     }
   });
   double of_bolts = 0.0;

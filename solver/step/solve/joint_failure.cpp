@@ -18,7 +18,7 @@ void open(PointLaw& law) {
 bool open_joints(IslandProblem& problem) {
   bool opened = false;
   for (std::size_t pair = 0; pair < problem.pairs(); ++pair) {
-    std::vector<PointLaw>& laws = problem.laws()[pair];
+    std::vector<PointLaw>& laws = problem.changing_laws()[pair];
     if (std::none_of(laws.begin(), laws.end(), [](const PointLaw& law) { return law.bridged; })) continue;
     const std::vector<double> gaps = problem.gaps(pair);
     for (std::size_t k = 0; k < laws.size(); ++k) {
@@ -37,7 +37,7 @@ bool open_joints(IslandProblem& problem) {
 }  // namespace
 
 JointFailure::JointFailure(IslandProblem& problem) {
-  for (auto& laws : problem.laws()) {
+  for (auto& laws : problem.changing_laws()) {
     strengths_.emplace_back();
     for (PointLaw& law : laws) {
       strengths_.back().push_back(law.tension);
@@ -66,7 +66,7 @@ bool JointFailure::break_joints(IslandProblem& problem) const {
   for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
     for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
       if (excess(pair, k) < 0.5 * most) continue;
-      open(problem.laws()[pair][k]);
+      open(problem.changing_laws()[pair][k]);
     }
   }
   return true;

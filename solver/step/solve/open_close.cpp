@@ -174,7 +174,7 @@ class OpenClose {
     if (before.size() != states.size()) return;
     std::size_t n = 0;
     for (std::size_t k = 0; k < changes_.size(); ++k)
-      for (std::size_t point = 0; point < problem_.responses()[k].points.size(); ++point, ++n)
+      for (std::size_t point = 0; point < problem_.laws()[k].size(); ++point, ++n)
         changes_[k] += before[n] == states[n] ? 0 : 1;
   }
 
@@ -189,14 +189,14 @@ class OpenClose {
 
   void hold(const std::vector<double>& limits) {
     std::size_t n = 0;
-    for (auto& laws : problem_.laws()) {
+    for (auto& laws : problem_.changing_laws()) {
       for (PointLaw& law : laws) law.held_limit = limits[n++];
     }
     respond();
   }
 
   void release() {
-    for (auto& laws : problem_.laws()) {
+    for (auto& laws : problem_.changing_laws()) {
       for (PointLaw& law : laws) law.held_limit = -1.0;
     }
     respond();

@@ -23,13 +23,27 @@ Eigen::Vector2d stiffness_of(const PointLaw& law) {
   return {law.normal_stiffness + law.dashpots.normal, law.shear_stiffness + law.dashpots.shear};
 }
 
+/// Force of a point under its law. The stiffness in shear is that of a point that does not slide.
+struct LawForce {
+  Vector3d force;           ///< N
+  double normal_stiffness;  ///< N/m
+  double shear_stiffness;
+  double limit;  ///< MeanResponse::limit
+};
+
+LawForce frequent_force(const FrequentLaw& law, const Vector3d& place) {
+  const PointForce at = point_force(law, place[0], place.tail<2>());
+  return {at.force, at.parted ? 0.0 : law.normal_stiffness, law.shear_stiffness,
+          limit_at(law, at.state, at.force[0], 0.0)};
+}
+
 /// Equilibrium of a law and a penalty spring:  F(v) - f = H (v - y).  Normal forces decrease with the gap, so that one
 /// gap solves it. Shear springs are linear up to the limit set by the normal force, as long as the gap does not
 /// depend on slip. Dilation is evaluated with the slip of the last pass.
-/// @param law_at (place, law of the point) -> MeanResponse
+/// @param law_at (place, law of the point) -> LawForce
 /// @param place y. @param point its force and copy are updated
-template <class LawAt>
-void project_on_law(const LawAt& law_at, const PointLaw& law, const Vector3d& place, SplitPoint& point) {
+template <class LawAt, class Law>
+void project_on_law(const LawAt& law_at, const Law& law, const Vector3d& place, SplitPoint& point) {
   const Vector3d &force = point.force, &penalty = point.penalty;
   Vector3d& copy = point.copy;
   const auto respond = [&](double gap) { return law_at({gap, copy[1], copy[2]}, law); };
@@ -42,20 +56,20 @@ void project_on_law(const LawAt& law_at, const PointLaw& law, const Vector3d& pl
   constexpr int most = 20;
   constexpr double enough = 1e-6;  // of the forces
   for (int k = 0; k < most; ++k) {
-    const MeanResponse mean = respond(gap);
+    const LawForce mean = respond(gap);
     const double lacks = left(gap, mean.force[0]);
     if (!(std::abs(lacks) > enough * (std::abs(force[0]) + std::abs(mean.force[0])))) break;
     (lacks > 0.0 ? high : low) = gap;
-    gap -= lacks / (penalty[0] + mean.tangent(0, 0));
+    gap -= lacks / (penalty[0] + mean.normal_stiffness);
     if (!(gap > low && gap < high)) gap = 0.5 * (low + high);
   }
   copy[0] = gap;
   const Vector3d there(copy[0], place[1], place[2]);
-  const MeanResponse limited = law_at(there, law);
-  PointLaw held = law;
+  const LawForce limited = law_at(there, law);
+  Law held = law;
   held.held_limit = std::numeric_limits<double>::max();
-  const MeanResponse locked = law_at(there, held);
-  const double ratio = locked.tangent(1, 1) / penalty[1];
+  const LawForce locked = law_at(there, held);
+  const double ratio = locked.shear_stiffness / penalty[1];
   Eigen::Vector2d shear = (locked.force.tail<2>() + ratio * force.tail<2>()) / (1.0 + ratio);
   if (const double length = shear.norm(); length > limited.limit) shear *= limited.limit / length;
   copy.tail<2>() = place.tail<2>() + (shear - force.tail<2>()) / penalty[1];
@@ -77,12 +91,10 @@ class PairSplitting {
 
   /// Responses whose stiffnesses are the penalties.
   [[nodiscard]] std::vector<PairResponse> penalties() const {
-    std::vector<PairResponse> responses = problem_.responses();
+    std::vector<PairResponse> responses(pairs_.size());
     for (std::size_t k = 0; k < pairs_.size(); ++k)
-      for (std::size_t n = 0; n < responses[k].means.size(); ++n) {
-        responses[k].means[n].tangent = pairs_[k][n].penalty.asDiagonal();
-        responses[k].means[n].coupling = {};
-      }
+      for (const SplitPoint& point : pairs_[k])
+        responses[k].means.push_back({Vector3d::Zero(), point.penalty.asDiagonal(), {}, 0.0});
     return responses;
   }
 
@@ -101,9 +113,16 @@ class PairSplitting {
   }
   void project_points() {
     parallel_for(problem_.threads(), pairs_.size(), [&](std::size_t k) {
+      const std::span<const FrequentLaw> frequent = problem_.frequent_laws(k);
       relax_and_project(pairs_[k], [&](std::size_t n, const Vector3d& place, SplitPoint& point) {
-        project_on_law([&](const Vector3d& there, const PointLaw& law) { return respond(k, n, there, law); },
-                       problem_.laws()[k][n], place, point);
+        if (frequent.empty())
+          project_on_law(
+              [&](const Vector3d& there, const PointLaw& law) { return respond(k, n, there, law); },
+              problem_.laws()[k][n], place, point);
+        else
+          project_on_law(
+              [](const Vector3d& there, const FrequentLaw& law) { return frequent_force(law, there); },
+              frequent[n], place, point);
       });
     });
   }
@@ -136,12 +155,15 @@ class PairSplitting {
   }
 
  private:
-  [[nodiscard]] MeanResponse respond(std::size_t k, std::size_t n, const Vector3d& place,
-                                     const PointLaw& law) const {
-    return problem_.pair(k).respond(n, place, problem_.scheme().mean_contacts, law).mean;
+  [[nodiscard]] LawForce respond(std::size_t k, std::size_t n, const Vector3d& place,
+                                 const PointLaw& law) const {
+    const MeanResponse mean = problem_.pair(k).respond(n, place, problem_.scheme().mean_contacts, law).mean;
+    return {mean.force, mean.tangent(0, 0), mean.tangent(1, 1), mean.limit};
   }
   [[nodiscard]] Vector3d force_at(std::size_t k, std::size_t n, const Vector3d& place) const {
-    return respond(k, n, place, problem_.laws()[k][n]).force;
+    const std::span<const FrequentLaw> frequent = problem_.frequent_laws(k);
+    return frequent.empty() ? respond(k, n, place, problem_.laws()[k][n]).force
+                            : point_force(frequent[n], place[0], place.tail<2>()).force;
   }
   [[nodiscard]] std::vector<SplitPoint> split(std::size_t k) const {
     const ContactPair& pair = problem_.pair(k);

@@ -87,10 +87,10 @@ TEST(PairRows, ProductsOfStiffnessesAreThoseOfTheTangent) {
   for (const Subject& subject : subjects()) {
     const Eigen::VectorXd da = random_vector(subject.a.unknowns(), 1);
     const Eigen::VectorXd db = random_vector(subject.b.unknowns(), 2);
-    const PairTangent tangent = subject.rows.tangent(response);
+    const PairTangent tangent = subject.rows.tangent(derivatives_of(response));
     Eigen::VectorXd on_a = Eigen::VectorXd::Zero(da.size());
     Eigen::VectorXd on_b = Eigen::VectorXd::Zero(db.size());
-    subject.rows.add_product(subject.rows.stiffnesses(response), da, db, on_a, on_b);
+    subject.rows.add_product(subject.rows.stiffnesses(derivatives_of(response)), da, db, on_a, on_b);
     Eigen::VectorXd expected_a = tangent.aa * da;
     if (db.size() > 0) expected_a += tangent.ab * db;
     EXPECT_LT((on_a - expected_a).norm(), 1e-13 * expected_a.norm());
@@ -116,7 +116,7 @@ TEST(PairRows, CouplingsAreForcesByMotionAtEachPoint) {
     subject.rows.set_forces(forces, expected);
     Eigen::VectorXd on_a = Eigen::VectorXd::Zero(da.size());
     Eigen::VectorXd on_b = Eigen::VectorXd::Zero(db.size());
-    subject.rows.add_product(subject.rows.couplings(response), da, db, on_a, on_b);
+    subject.rows.add_product(subject.rows.couplings(derivatives_of(response)), da, db, on_a, on_b);
     EXPECT_LT((on_a - expected.force_on_a).norm(), 1e-13 * expected.force_on_a.norm());
     ASSERT_EQ(on_b.size(), subject.b.unknowns());
     if (db.size() > 0) {
@@ -128,7 +128,7 @@ TEST(PairRows, CouplingsAreForcesByMotionAtEachPoint) {
 TEST(PairRows, WithoutSlidingThereAreNoCouplings) {
   PairResponse response = some_response();
   for (MeanResponse& mean : response.means) mean.coupling.force.setZero();
-  EXPECT_EQ(subjects().front().rows.couplings(response).cols(), 0);
+  EXPECT_EQ(subjects().front().rows.couplings(derivatives_of(response)).cols(), 0);
 }
 
 }  // namespace
