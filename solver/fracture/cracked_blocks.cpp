@@ -1,0 +1,159 @@
+#include "solver/fracture/cracked_blocks.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "solver/parallel_for.hpp"
+
+namespace ashlar {
+
+CrackedBlocks::CrackedBlocks(std::vector<std::optional<CrackLaw>> laws, DefinitionOf definition,
+                             const Simulation& run, int most_blocks)
+    : laws_(std::make_shared<const std::vector<std::optional<CrackLaw>>>(std::move(laws))),
+      start_(std::make_shared<const BlockSystem>(run.system())),
+      definition_(std::move(definition)),
+      most_blocks_(most_blocks),
+      cracks_(run.blocks().size(), 0) {
+  for (int k = 0; k < run.system().count(); ++k) origins_.push_back(k);
+}
+
+const std::optional<CrackLaw>& CrackedBlocks::law_of(int block) const {
+  return (*laws_)[at(origins_[at(block)])];
+}
+
+const BlockDefinition& CrackedBlocks::definition_of(int block) {
+  const auto [place, is_new] = definitions_.try_emplace(block);
+  if (is_new) place->second = definition_(block);
+  return place->second;
+}
+
+std::vector<WeakPlace> CrackedBlocks::weak_places(const Simulation& run) {
+  std::vector<int> asked;
+  for (int k = 0; k < run.system().count(); ++k) {
+    if (!law_of(k) || !run.system().present(k) || !run.system().moving()[at(k)]) continue;
+    if (std::binary_search(record_.left_whole.begin(), record_.left_whole.end(), k)) continue;
+    asked.push_back(k);
+    probes_.try_emplace(k);
+  }
+  std::vector<std::optional<WeakPlace>> found(asked.size());
+  parallel_for(run.system().settings().threads, asked.size(), [&](std::size_t n) {
+    const BlockModel& block = run.blocks()[at(asked[n])];
+    const CrackLaw& law = *law_of(asked[n]);
+    StressProbes& probes = probes_.at(asked[n]);
+    if (probes.points.empty()) probes = stress_probes(block, law.least_size);
+    found[n] = weakest_place(block, run.states()[at(asked[n])], probes, law.tensile_strength);
+  });
+  std::vector<WeakPlace> places;
+  for (std::size_t n = 0; n < asked.size(); ++n) {
+    if (!found[n]) continue;
+    found[n]->block = asked[n];
+    places.push_back(*found[n]);
+  }
+  const auto excess = [this](const WeakPlace& place) {
+    return place.stress / law_of(place.block)->tensile_strength;
+  };
+  std::stable_sort(places.begin(), places.end(),
+                   [&](const WeakPlace& x, const WeakPlace& y) { return excess(x) > excess(y); });
+  return places;
+}
+
+std::optional<CrackedBlocks::Division> CrackedBlocks::division_of(int block, const Plane& plane,
+                                                                  std::size_t blocks) {
+  const BlockDefinition& whole = definition_of(block);
+  const std::optional<DividedSolid> solids = divided_solid(*whole.solid, plane, law_of(block)->least_size);
+  if (!solids) return std::nullopt;
+  const std::string& name = start_->blocks()[at(origins_[at(block)])].name();
+  const int crack = cracks_[at(origins_[at(block)])] + 1;
+  Division division{{block, {}}, {}, solids->area};
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < solids->parts.size(); ++k) {
+    names.push_back(name_of_part(whole.name.empty() ? name : whole.name, crack, k));
+    division.numbers.numbers.push_back(k == 0 ? block : static_cast<int>(blocks + k - 1));
+  }
+  try {
+    division.parts = parts_of(whole, *solids, names);
+  } catch (const std::domain_error&) {
+    return std::nullopt;  // a sliver on which the functions lose their digits
+  }
+  return division;
+}
+
+Simulation::LawOfPair CrackedBlocks::laws() const {
+  return [start = start_, laws = laws_, origins = origins_](int a, int b) {
+    const auto [low, high] = std::minmax(origins[at(a)], origins[at(b)]);
+    return low == high ? (*laws)[at(low)]->joint : start->law(low, high);
+  };
+}
+
+Simulation CrackedBlocks::with_division(const Simulation& run, const Division& division) {
+  const int origin = origins_[at(division.numbers.block)];
+  for (std::size_t k = 0; k < division.parts.size(); ++k) {
+    const int number = division.numbers.numbers[k];
+    if (k > 0) origins_.push_back(origin);
+    definitions_[number] = division.parts[k].definition;
+    probes_.erase(number);
+  }
+  ++cracks_[at(origin)];
+  return with_parts(run, division.numbers, division.parts, laws());
+}
+
+void CrackedBlocks::leave_whole(int block) {
+  record_.left_whole.insert(std::lower_bound(record_.left_whole.begin(), record_.left_whole.end(), block),
+                            block);
+}
+
+int CrackedBlocks::divide(Simulation& run, int stage) {
+  int cracks = 0;
+  for (const WeakPlace& place : weak_places(run)) {
+    const CrackLaw law = *law_of(place.block);
+    const std::optional<Plane> plane =
+        plane_with_room(run.blocks()[at(place.block)].solid(), place.plane, law.least_size);
+    std::optional<Division> division;
+    if (plane) division = division_of(place.block, *plane, run.blocks().size());
+    if (!division) {
+      leave_whole(place.block);
+      continue;
+    }
+    if (run.blocks().size() + division->parts.size() - 1 > static_cast<std::size_t>(most_blocks_))
+      throw std::length_error("block \"" + run.blocks()[at(place.block)].name() +
+                              "\" cracks, but there would be more than " + std::to_string(most_blocks_) +
+                              " blocks; give the [[crack]] a larger most_blocks or least_size");
+    Simulation parts = with_division(run, *division);
+    parts.restore(divided_state(run, division->numbers, division->parts, law.joint, parts));
+    run = std::move(parts);
+    record_.events.push_back({run.time(), stage, place.block, division->numbers.numbers, plane->point,
+                              plane->normal, division->area, place.stress});
+    ++cracks;
+  }
+  return cracks;
+}
+
+void CrackedBlocks::repeat(const CrackRecord& record, Simulation& run) {
+  for (const CrackEvent& event : record.events) {
+    const std::optional<Division> division =
+        division_of(event.block, {event.point, event.normal}, run.blocks().size());
+    if (!division) throw std::runtime_error("a crack of the earlier run does not fit the blocks of this one");
+    run = with_division(run, *division);
+    record_.events.push_back(event);
+  }
+  record_.left_whole = record.left_whole;
+}
+
+double energy_of_cracks(const Simulation& run, const std::vector<int>& origins) {
+  double energy = 0.0;
+  for (const auto& [blocks, pair] : run.histories()) {
+    if (origins[at(blocks[0])] != origins[at(blocks[1])]) continue;
+    const FractureEnergy fracture = run.system().law(blocks[0], blocks[1]).fracture;
+    energy += fracture.tension * pair.broken;
+    for (const ContactMemory::Entry& entry : pair.memory.entries()) {
+      if (!entry.memory.intact) continue;
+      const bool open = entry.memory.compression < 0.0;
+      energy += (open ? fracture.tension : fracture.shear) * entry.memory.damage * entry.area;
+    }
+  }
+  return energy;
+}
+
+}  // namespace ashlar
