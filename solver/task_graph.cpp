@@ -12,6 +12,10 @@
 namespace ashlar {
 namespace {
 
+/// Tries of a waiting thread before it lets others run: more end chains of short tasks sooner where cores are idle, and hold
+/// others up where they are not.
+constexpr int tries_before_yield = 64;
+
 /// The tasks of one run that may start, and those that wait.
 class ReadyTasks {
  public:
@@ -25,13 +29,12 @@ class ReadyTasks {
   /// Waits for a task that may start. @return none: all have ended, or one has failed
   [[nodiscard]] std::optional<int> take() {
     // A waiting thread spins: a chain of short tasks ends sooner than a thread wakes. Between tries it lets others run.
-    constexpr int tries = 64;
     for (int n = 0; left_.load() > 0; ++n) {
       if (count_.load() > 0) {
         const std::scoped_lock lock(mutex_);
         if (!ready_.empty()) return pop();
       }
-      if (n % tries == tries - 1) std::this_thread::yield();
+      if (n % tries_before_yield == tries_before_yield - 1) std::this_thread::yield();
     }
     return std::nullopt;
   }
