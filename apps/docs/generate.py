@@ -6,30 +6,23 @@
     generate.py PROGRAM --check            writes nothing; exit status 1 if a page differs from the program
 
     reference/commands.md   the help of each command, in the block after `<!-- ashlar NAME --help -->`
-    reference/scene.md      the column `value`: what the reader accepts, in its own words. Keys that the page does not have
-                            are appended to their table, to be described by hand; a unit test holds the column `default`
+    reference/scene.md      the tables of keys, in the block after `<!-- keys: HEADING -->` ("top": outside of tables)
     reference/results.md    the tables of columns, in the block after `<!-- columns: FILE -->`
     validation.md           the table of `ashlar verify`, with references and sources from verify_sources.toml. --check runs
                             the cases that take less than a second or two. Below it our numbers beside those of others
                             (peer_results.toml)
 """
 import argparse
-import concurrent.futures
 import json
 import os
 import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import tomllib
 
 DOCS = pathlib.Path(__file__).resolve().parent
 PROJECT = DOCS.parents[1]
-LISTS = ("joint", "material", "block", "masonry", "cut", "load", "bolt", "prop", "water", "boundary", "measure", "assign", "stage")
-MASONRY_KINDS = 4
-# Stands where a key of the program is to be described by hand.
-UNSAID = "TO BE SAID"
 
 
 def output_of(program, *arguments, **more):
@@ -48,76 +41,20 @@ def with_help(program, text):
 
 # Keys of a scene.
 
-def scene_with_every_table():
-    """The scene from which `ashlar schema` is made."""
-    source = (PROJECT / "apps" / "scene" / "assemble" / "scene_schema.cpp").read_text(encoding="utf-8")
-    return "".join(re.findall(r'_tables = R"\((.*?)\)";', source, flags=re.DOTALL))
+KEYS = re.compile(r"(<!-- keys: (\S+) -->\n).*?(<!-- end of keys -->)", re.DOTALL)
 
 
-def override_paths(path):
-    """block.fix.point as --set takes it: block.0.fix.0.point. Keys of masonry are those of its kind."""
-    head, *rest = path.split(".")
-    if head not in LISTS:
-        return [path]
-    rest = ".".join([f"{part}.0" if part in ("fix", "load", "openings") and k + 1 < len(rest) else part
-                     for k, part in enumerate(rest)])
-    return [f"{head}.{entry}.{rest}" for entry in range(MASONRY_KINDS if head == "masonry" else 1)]
+def with_keys(program, text):
+    tables = json.loads(output_of(program, "schema", "--keys"))
 
+    def table(match):
+        lines = ["| key | value | default | meaning |", "|---|---|---|---|"]
+        for row in tables["" if match[2] == "top" else match[2]]:
+            meaning = ", ".join(part for part in (row["unit"], row["meaning"]) if part)
+            lines.append(f"| `{row['key']}` | {row['value']} | {row['default']} | {meaning + ' ' if meaning else ''}|")
+        return match[1] + "\n".join(lines) + "\n" + match[3]
 
-def accepted_value(program, scene, path):
-    """The type that the reader requires in place of a table; None: a table is accepted."""
-    for override in override_paths(path):
-        told = json.loads(output_of(program, "check", scene, "--json", "--set", f"{override}={{}}"))
-        for fault in told["faults"]:
-            if match := re.search(r"the wrong type \(a table\), (.*) is needed", fault["message"]):
-                return match[1]
-    return None
-
-
-def keys_of(schema, table=""):
-    """Paths of all keys of the schema that are not tables."""
-    for key, value in schema.get("properties", {}).items():
-        inner = value.get("items", value) if value.get("type") == "array" else value
-        path = f"{table}.{key}" if table else key
-        told_once = path.endswith((".inside", "stage.remove", "stage.add")) and path != "assign.inside"
-        if "properties" in inner and path != "stage.analysis" and not told_once and not re.search(r"(stage|assign)\.(fix|load|joint|material|water|bolt|prop)$", path):
-            yield from keys_of(inner, path)
-        else:
-            yield path
-
-
-def with_values(program, text):
-    def table_of(line):
-        match = re.match(r"#+ `\[+([a-z._]*)\]+`", line)
-        return match[1] if match else ""
-
-    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        scene = pathlib.Path(folder) / "scene.toml"
-        scene.write_text(scene_with_every_table(), encoding="utf-8")
-        rows, table, last = {}, "", {}
-        lines = text.splitlines()
-        for number, line in enumerate(lines):
-            if line.startswith("#"):
-                table = table_of(line)
-            cells = re.match(r"\| `([^`]+)` \| (.*?) \| (.*?) \| (.*)\|$", line)
-            if cells:
-                rows[f"{table}.{cells[1]}" if table else cells[1]] = number, cells
-                last[table] = number
-        found = dict(zip(rows, pool.map(lambda path: accepted_value(program, scene, path), rows), strict=True))
-        for path, (number, cells) in rows.items():
-            if found[path]:
-                lines[number] = f"| `{cells[1]}` | {found[path]} | {cells[3]} | {cells[4]}|"
-        new = {}
-        for path in keys_of(json.loads(output_of(program, "schema"))):
-            named = any(row == path or row.startswith(path + ".") for row in rows)
-            if not named and path not in ("include", "parameters"):
-                home = max((name for name in last if path.startswith(name + ".")), key=len, default="")
-                key = path.removeprefix(home + ".") if home else path
-                new.setdefault(last[home], []).append(
-                    f"| `{key}` | {accepted_value(program, scene, path)} | {UNSAID} | {UNSAID} |")
-        for number in sorted(new, reverse=True):
-            lines[number + 1:number + 1] = new[number]
-    return "\n".join(lines) + "\n"
+    return KEYS.sub(table, text)
 
 
 # The tables of columns of results.md.
@@ -314,7 +251,7 @@ def main(arguments):
     options = parser.parse_args(arguments)
     program = str(pathlib.Path(options.program).resolve())
     faults = []
-    for name, write in (("reference/commands.md", with_help), ("reference/scene.md", with_values),
+    for name, write in (("reference/commands.md", with_help), ("reference/scene.md", with_keys),
                         ("reference/results.md", with_columns),
                         ("validation.md", with_validation)):
         page = DOCS / name
@@ -322,7 +259,6 @@ def main(arguments):
         if options.check:
             new = write(program, old)
             faults += [f"{name} differs from the program: generate.py rewrites it"] if new != old else []
-            faults += [f"{name} has keys without a default and a meaning ({UNSAID})"] if UNSAID in old else []
             if write is with_validation:
                 faults += changed_tolerances(program, old)
             continue

@@ -60,8 +60,8 @@ def test_the_wheel_has_what_the_module_needs(wheel):
     tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
     assert wheel.name.startswith("ashlar-") and f"-{tag}-{tag}-linux" in wheel.name
     names = zipfile.ZipFile(wheel).namelist()
-    for name in ("ashlar/__init__.py", "ashlar/__init__.pyi", "ashlar/_history.py", "ashlar/_notebook.py", "ashlar/_pictures.py", "ashlar/_toml.py",
-                 "ashlar/compas.py", "ashlar/py.typed"):
+    for name in ("ashlar/__init__.py", "ashlar/__init__.pyi", "ashlar/_history.py", "ashlar/_key_tables.py", "ashlar/_notebook.py", "ashlar/_pictures.py", "ashlar/_toml.py",
+                 "ashlar/compas.py", "ashlar/keys.py", "ashlar/py.typed"):
         assert name in names
     assert sum(name.startswith("ashlar/_core.") and name.endswith(".so") for name in names) == 1
     assert any(name.endswith("/LICENSE") for name in names)

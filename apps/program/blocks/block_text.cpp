@@ -9,7 +9,7 @@
 #include "apps/program/blocks/block_histogram.hpp"
 #include "apps/results/text/csv_text.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
-#include "apps/scene/json/analysis_json.hpp"
+#include "apps/scene/json/value_json.hpp"
 #include "geometry/boxes/box.hpp"
 
 namespace ashlar {

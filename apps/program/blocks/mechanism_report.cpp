@@ -8,7 +8,7 @@
 #include "apps/run/run_setup.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
-#include "apps/scene/json/analysis_json.hpp"
+#include "apps/scene/json/value_json.hpp"
 #include "apps/scene/model/preparation.hpp"
 #include "geometry/index.hpp"
 

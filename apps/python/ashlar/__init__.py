@@ -25,13 +25,14 @@ except ModuleNotFoundError as _fault:
 
 from . import _core
 from . import _notebook
+from . import keys
 from ._history import History
 from ._pictures import Page, page, picture
 from ._toml import to_toml as _to_toml
 
 __version__ = _core.version.split()[1] if len(_core.version.split()) > 1 else _core.version
 __all__ = ["Block", "Bolt", "History", "Page", "Scene", "SceneError", "Simulation", "blocks", "contacts", "integrate",
-           "page", "picture", "run", "schema"]
+           "keys", "page", "picture", "run", "schema"]
 
 
 Block = _core.Block
@@ -54,9 +55,19 @@ class SceneError(ValueError):
 
 
 class Scene:
-    """A checked scene, created by Scene.load or Scene.from_dict; can be pickled."""
+    """A checked scene, created by Scene.load, by Scene.from_dict or from tables; can be pickled.
 
-    def __init__(self, text, file, overrides=()):
+        ashlar.Scene(analysis=keys.Analysis(type="static"), material=[keys.Material(name="rock", ...)], block=[...])
+
+    tables: keys of a scene with tables of ashlar.keys or dictionaries; None is left out. text: a scene as TOML, in place of
+    tables. file: its name, for messages and as base of relative paths. Raises SceneError.
+    """
+
+    def __init__(self, text=None, file="scene.toml", overrides=(), **tables):
+        if (text is None) == (not tables):
+            raise TypeError("a scene is made from its text or from tables: one of both is needed")
+        if text is None:
+            text = _to_toml(keys.to_dict({key: value for key, value in tables.items() if value is not None}))
         if isinstance(overrides, str):
             raise TypeError('overrides are a list of texts "key.path=value", not one text')
         self._text, self._file, self._overrides = text, str(file), list(overrides)
@@ -71,13 +82,13 @@ class Scene:
 
     @classmethod
     def from_dict(cls, values, folder="."):
-        """A scene from a dictionary with the keys of a scene file. Numpy arrays and tuples are accepted as lists, numpy
+        """A scene from a dictionary with the keys of a scene file, or with tables of ashlar.keys. Numpy arrays and tuples are accepted as lists, numpy
         numbers as numbers, paths as texts.
 
         folder: base of relative paths of the scene. Raises SceneError, whose lines are those of `text`; TypeError or
         ValueError, with the key ("block.0.box.min"), for values that a scene file cannot have, such as None.
         """
-        return cls(_to_toml(values), _os.path.join(str(folder), "scene.toml"))
+        return cls(_to_toml(keys.to_dict(values)), _os.path.join(str(folder), "scene.toml"))
 
     @property
     def text(self):

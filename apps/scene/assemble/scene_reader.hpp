@@ -9,7 +9,6 @@
 
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/scene.hpp"
-#include "apps/scene/toml/key_recorder.hpp"
 
 namespace ashlar {
 
@@ -24,8 +23,5 @@ namespace ashlar {
 /// Reads a scene file, as parse_scene. A file that cannot be read is reported at its line 1, column 1.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                                Diagnostics& diagnostics);
-
-/// Reads a scene only to record the requested keys; its faults are ignored.
-void record_keys(std::string_view text, KeyRecorder& recorder);
 
 }  // namespace ashlar

@@ -1,16 +1,15 @@
-// A JSON schema of scenes, for editors and validators: recorded while the reader reads a scene with every table.
+// Descriptions of all keys of a scene, made from their declarations (keys/scene_keys.hpp).
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string>
 
 namespace ashlar {
 
-/// A scene with a table of each kind and all variants of tables, each with the keys that have no default.
-[[nodiscard]] std::string scene_with_every_table();
-
-/// JSON schema (draft 2020-12). It covers keys, types, ranges, words and required keys of tables; checks that involve
-/// several keys are left to `ashlar check`. Any number may be the text of a formula, "= 2*h".
+/// JSON schema (draft 2020-12), for editors and validators. It covers keys, types, ranges, words and required keys of
+/// tables; checks that involve several keys are left to `ashlar check`. Any number may be the text of a formula, "= 2*h".
 [[nodiscard]] nlohmann::ordered_json scene_schema();
+
+/// Rows of the reference by heading of the table, "" for the top of a scene (TableKeys::rows).
+[[nodiscard]] nlohmann::ordered_json scene_reference();
 
 }  // namespace ashlar

@@ -1,31 +1,36 @@
 #include "apps/scene/masonry/masonry.hpp"
-#include "apps/scene/read/block_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
+
+#include "apps/scene/keys/masonry_keys.hpp"
 
 namespace ashlar {
 namespace {
 
-using PieceReader = std::vector<MasonryPiece> (*)(TomlTableReader&);
-
-constexpr std::array<std::pair<const char*, PieceReader>, 4> kinds = {
-    {{"wall", read_wall}, {"arch", read_arch}, {"column", read_column}, {"dome", read_dome}}};
+std::vector<MasonryPiece> read_kind(SceneMasonry::Kind kind, TomlTableReader& table) {
+  switch (kind) {
+    case SceneMasonry::Kind::wall:
+      return read_wall(table);
+    case SceneMasonry::Kind::arch:
+      return read_arch(table);
+    case SceneMasonry::Kind::column:
+      return read_column(table);
+    case SceneMasonry::Kind::dome:
+      return read_dome(table);
+  }
+  return {};
+}
 
 }  // namespace
 
 std::vector<SceneBlock> read_masonry(TomlTableReader& table) {
-  SceneBlock common;
-  for (const char* key : {"name", "kind"}) table.require(key);
-  table.read_name("name", common.name);
-  table.read_name("material", common.material);
-  read_order(table, common);
-  PieceReader read = nullptr;
-  if (!table.read_choice("kind", read, kinds)) return {};
+  const SceneMasonry masonry = keys::masonry_keys().read(table);
+  if (!masonry.kind) return {};
+  const SceneBlock& common = masonry.block;
   std::vector<SceneBlock> blocks;
-  for (MasonryPiece& piece : read(table)) {
+  for (MasonryPiece& piece : read_kind(*masonry.kind, table)) {
     SceneBlock block = common;
     if (!common.name.empty()) block.name = fmt::format("{}.{}", common.name, piece.name);
     block.shape = std::move(piece.shape);

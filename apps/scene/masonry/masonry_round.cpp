@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/keys/masonry_keys.hpp"
 #include "apps/scene/masonry/masonry.hpp"
 #include "apps/scene/masonry/masonry_reading.hpp"
 #include "apps/scene/read/exact_turn.hpp"
@@ -13,8 +14,6 @@ namespace ashlar {
 namespace {
 
 constexpr int fewest_sides = 3;
-constexpr int default_sides = 24;
-constexpr NumberRange turn_range = {-360.0, 360.0, true, true, "a number of degrees from -360 to 360"};
 
 MasonryPiece hull_piece(std::vector<Vector3> points, std::size_t number) {
   return {std::to_string(number), SceneHull{std::move(points)}, {}, {}};
@@ -30,20 +29,10 @@ struct Ring {
   double outer = 0.0;
 };
 
-// Reads mean radius and thickness, which are required.
-std::optional<Ring> read_ring(TomlTableReader& table) {
-  double radius = 0.0, thickness = 0.0;
-  const bool radius_good = read_length(table, "radius", radius);
-  const bool thickness_good = read_length(table, "thickness", thickness);
-  if (!radius_good || !thickness_good) return std::nullopt;
-  if (thickness >= 2.0 * radius) {
-    table.error_at_value("thickness",
-                         fmt::format("thickness leaves no inside ({} m), less than twice the mean "
-                                     "radius ({} m) is needed",
-                                     thickness, 2.0 * radius));
-    return std::nullopt;
-  }
-  return Ring{radius - 0.5 * thickness, radius + 0.5 * thickness};
+/// @tparam Struct with a mean radius and a thickness
+template <class Struct>
+Ring ring_of(const Struct& given) {
+  return {given.radius - 0.5 * given.thickness, given.radius + 0.5 * given.thickness};
 }
 
 /// Corners on the circle about the vertical, k of `count`, at a height above the centre.
@@ -57,11 +46,6 @@ struct Circle {
   }
 };
 
-struct Fill {
-  double top = 0.0;     ///< m, z of its level
-  double weight = 0.0;  ///< N/m^3
-};
-
 struct Arch {
   Vector3 center = Vector3::Zero();
   std::optional<SceneRotation> turn;
@@ -70,7 +54,7 @@ struct Arch {
   double from = 0.0;
   double to = 180.0;
   int voussoirs = 0;
-  std::optional<Fill> fill;
+  std::optional<SceneFill> fill;
 
   /// Corner before rotation. @param side -0.5 to 0.5 of the width
   [[nodiscard]] Vector3 corner(int joint, double radius, double side) const {
@@ -81,24 +65,15 @@ struct Arch {
 };
 
 std::optional<Arch> read_arch_keys(TomlTableReader& table) {
-  Arch arch;
-  bool good = read_masonry_position(table, "center", arch.center);
-  good = read_direction(table, arch.center, arch.turn) && good;
-  const std::optional<Ring> ring = read_ring(table);
-  good = read_length(table, "width", arch.width) && good;
-  good = (table.read_number("from", arch.from, turn_range) || !table.given("from")) && good;
-  good = (table.read_number("to", arch.to, turn_range) || !table.given("to")) && good;
-  good = read_count(table, "voussoirs", arch.voussoirs, 1) && good;
-  if (auto fill = table.table("fill")) {
-    arch.fill.emplace();
-    for (const char* key : {"top", "weight"}) fill->require(key);
-    good = fill->read_number("top", arch.fill->top, range::any_number) && good;
-    arch.fill->top -= table.reading().origin().z();
-    good = fill->read_number("weight", arch.fill->weight, range::positive) && good;
-  }
-  if (!good || !ring) return std::nullopt;
-  arch.ring = *ring;
-  return arch;
+  SceneArch given;
+  if (!keys::arch_keys().read(table, given)) return std::nullopt;
+  const Vector3& origin = table.reading().origin();
+  const Vector3 center = given.center - origin;
+  if (given.fill) given.fill->top -= origin.z();
+  return Arch{center,          turn_to(given.direction, center),
+              ring_of(given),  given.width,
+              given.from,      given.to,
+              given.voussoirs, given.fill};
 }
 
 bool check_fill(TomlTableReader& table, const Arch& arch) {
@@ -167,17 +142,11 @@ std::vector<MasonryPiece> read_arch(TomlTableReader& table) {
 }
 
 std::vector<MasonryPiece> read_column(TomlTableReader& table) {
-  Vector3 center = Vector3::Zero();
-  double radius = 0.0, height = 0.0;
-  int sides = default_sides, drums = 0;
-  bool good = read_masonry_position(table, "center", center);
-  good = read_length(table, "radius", radius) && good;
-  double top_radius = radius;
-  good = read_optional_length(table, "top_radius", top_radius) && good;
-  good = read_length(table, "height", height) && good;
-  good = (table.read_integer("sides", sides, fewest_sides, 1000) || !table.given("sides")) && good;
-  good = read_count(table, "drums", drums, 1) && good;
-  if (!good) return {};
+  SceneColumn column;
+  if (!keys::column_keys().read(table, column)) return {};
+  const auto& [foot, radius, top, height, sides, drums] = column;
+  const Vector3 center = foot - table.reading().origin();
+  const double top_radius = top.value_or(radius);
   // A drum has as many corners as several pieces of other kinds.
   if (!check_pieces(table, static_cast<double>(drums) * std::max(1.0, sides / 8.0))) return {};
   const Circle circle{center, sides};
@@ -194,18 +163,12 @@ std::vector<MasonryPiece> read_column(TomlTableReader& table) {
 }
 
 std::vector<MasonryPiece> read_dome(TomlTableReader& table) {
-  Vector3 center = Vector3::Zero();
-  double from = 0.0, to = 80.0;
-  int courses = 0, voussoirs = 0;
-  bool keystone = true;
-  bool good = read_masonry_position(table, "center", center);
-  const std::optional<Ring> ring = read_ring(table);
-  good = (table.read_number("from", from, turn_range) || !table.given("from")) && good;
-  good = (table.read_number("to", to, turn_range) || !table.given("to")) && good;
-  good = read_count(table, "courses", courses, 1) && good;
-  good = read_count(table, "voussoirs", voussoirs, 1) && good;
-  good = (table.read_bool("keystone", keystone) || !table.given("keystone")) && good;
-  if (!good || !ring) return {};
+  SceneDome dome;
+  if (!keys::dome_keys().read(table, dome)) return {};
+  const Vector3 center = dome.center - table.reading().origin();
+  const double from = dome.from, to = dome.to;
+  const int courses = dome.courses, voussoirs = dome.voussoirs;
+  const Ring ring = ring_of(dome);
   if (voussoirs < fewest_sides) {
     table.error_at_value("voussoirs",
                          fmt::format("dome has too few voussoirs in a course ({}), at least {} are "
@@ -230,13 +193,12 @@ std::vector<MasonryPiece> read_dome(TomlTableReader& table) {
       std::vector<Vector3> points;
       for (const int level : {course, course + 1})
         for (const int side : {k, k + 1})
-          for (const double radius : {ring->inner, ring->outer})
-            points.push_back(corner(level, side, radius));
+          for (const double radius : {ring.inner, ring.outer}) points.push_back(corner(level, side, radius));
       pieces.push_back(hull_piece(std::move(points), pieces.size() + 1));
     }
-  if (keystone) {
+  if (dome.keystone) {
     std::vector<Vector3> points;
-    for (const double radius : {ring->inner, ring->outer})
+    for (const double radius : {ring.inner, ring.outer})
       for (int k = 0; k < voussoirs; ++k) points.push_back(corner(courses, k, radius));
     pieces.push_back(hull_piece(std::move(points), pieces.size() + 1));
   }

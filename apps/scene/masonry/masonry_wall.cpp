@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/scene/keys/masonry_keys.hpp"
 #include "apps/scene/masonry/masonry.hpp"
 #include "apps/scene/masonry/masonry_reading.hpp"
 #include "apps/scene/read/block_arrays.hpp"
@@ -17,21 +18,10 @@ constexpr double same_edge = 1e-9;
 /// Share of a brick: thinner pieces cause a warning.
 constexpr double thin_piece = 1e-2;
 
-enum class Bond { running, stack, header };
-constexpr std::array<std::pair<const char*, Bond>, 3> bond_names = {
-    {{"running", Bond::running}, {"stack", Bond::stack}, {"header", Bond::header}}};
-
 /// In the axes of the wall (along, across, up), m from its origin.
 struct WallBox {
   Vector3 low;
   Vector3 high;
-};
-
-struct Opening {
-  WallBox box;
-  double lintel = 0.0;   ///< m, height of a lintel above it; 0: none
-  double bearing = 0.0;  ///< m, bearing length of the lintel at each end
-  bool good = false;
 };
 
 struct Wall {
@@ -40,31 +30,8 @@ struct Wall {
   Vector3 size = Vector3::Zero();  ///< length, thickness, height
   Vector3 unit = Vector3::Zero();  ///< size of a brick as laid: along, across, up
   bool staggered = true;
-  std::vector<Opening> openings;
+  std::vector<SceneOpening> openings;
 };
-
-Opening read_opening(TomlTableReader& table) {
-  Opening opening;
-  table.require("box");
-  TomlTableReader box = table.table_or_empty("box");
-  for (const char* key : {"min", "max"}) box.require(key);
-  opening.good = box.read_place("min", opening.box.low);
-  opening.good = box.read_place("max", opening.box.high) && opening.good;
-  if (opening.good && !(opening.box.low.array() < opening.box.high.array()).all()) {
-    box.error_at_value("min",
-                       fmt::format("min is not below max ([{}, {}, {}]), min < max is needed in all three",
-                                   opening.box.low.x(), opening.box.low.y(), opening.box.low.z()));
-    opening.good = false;
-  }
-  if (auto lintel = table.table("lintel")) {
-    const bool height = read_length(*lintel, "height", opening.lintel);
-    const bool bearing = read_length(*lintel, "bearing", opening.bearing);
-    opening.good = opening.good && height && bearing;
-  } else {
-    opening.good = opening.good && !table.given("lintel");
-  }
-  return opening;
-}
 
 /// Edges from 0 to the end of the wall, a brick apart.
 std::vector<double> edges_of(double total, double unit, bool half) {
@@ -166,32 +133,16 @@ class Bricklayer {
 };
 
 std::optional<Wall> read_wall_keys(TomlTableReader& table) {
+  SceneWall given;
+  if (!keys::wall_keys().read(table, given)) return std::nullopt;
   Wall wall;
-  bool good = read_masonry_position(table, "origin", wall.origin);
-  good = read_direction(table, wall.origin, wall.turn) && good;
-  good = read_length(table, "length", wall.size.x()) && good;
-  good = read_length(table, "height", wall.size.z()) && good;
-  table.require("brick");
-  Bond bond = Bond::running;
-  good = (table.read_choice("bond", bond, bond_names) || !table.given("bond")) && good;
-  wall.staggered = bond != Bond::stack;
-  if (table.read_place("brick", wall.unit)) {
-    if (!(wall.unit.array() > 0.0).all()) {
-      table.error_at_value("brick",
-                           fmt::format("brick has a side that is not positive ([{}, {}, {}]), [length, "
-                                       "thickness, height] > 0 is needed",
-                                       wall.unit.x(), wall.unit.y(), wall.unit.z()));
-      good = false;
-    }
-  } else {
-    good = false;
-  }
-  if (bond == Bond::header) std::swap(wall.unit.x(), wall.unit.y());
-  wall.size.y() = wall.unit.y();
-  good = read_optional_length(table, "thickness", wall.size.y()) && good;
-  wall.openings = table.read_tables("openings", read_opening);
-  for (const Opening& opening : wall.openings) good = good && opening.good;
-  if (!good) return std::nullopt;
+  wall.origin = given.origin - table.reading().origin();
+  wall.turn = turn_to(given.direction, wall.origin);
+  wall.staggered = given.bond != SceneWall::Bond::stack;
+  wall.unit = given.brick;
+  if (given.bond == SceneWall::Bond::header) std::swap(wall.unit.x(), wall.unit.y());
+  wall.size = {given.length, given.thickness.value_or(wall.unit.y()), given.height};
+  wall.openings = std::move(given.openings);
   return wall;
 }
 
@@ -199,7 +150,7 @@ std::optional<Wall> read_wall_keys(TomlTableReader& table) {
 bool check_openings(TomlTableReader& table, const Wall& wall, Bricklayer& bricklayer) {
   bool good = true;
   for (std::size_t k = 0; k < wall.openings.size(); ++k) {
-    const WallBox& box = wall.openings[k].box;
+    const WallBox box = {wall.openings[k].box.min, wall.openings[k].box.max};
     const std::string key = fmt::format("openings.{}", k);
     const double tolerance = same_edge * wall.unit.y();
     if (box.low.y() > tolerance || box.high.y() < wall.size.y() - tolerance) {
@@ -225,12 +176,12 @@ std::optional<std::vector<WallBox>> place_lintels(TomlTableReader& table, const 
   std::vector<WallBox> lintels;
   const std::vector<WallBox> openings = bricklayer.holes();
   for (std::size_t k = 0; k < wall.openings.size(); ++k) {
-    const Opening& opening = wall.openings[k];
-    if (opening.lintel == 0.0) continue;
+    if (!wall.openings[k].lintel) continue;
+    const auto& [height, bearing] = *wall.openings[k].lintel;
     const WallBox& hole = openings[k];
     const Vector3 near = same_edge * wall.unit;
-    const WallBox lintel = {{hole.low.x() - opening.bearing, 0.0, hole.high.z()},
-                            {hole.high.x() + opening.bearing, wall.size.y(), hole.high.z() + opening.lintel}};
+    const WallBox lintel = {{hole.low.x() - bearing, 0.0, hole.high.z()},
+                            {hole.high.x() + bearing, wall.size.y(), hole.high.z() + height}};
     if (lintel.low.x() < -near.x() || lintel.high.x() > wall.size.x() + near.x() ||
         lintel.high.z() > wall.size.z() + near.z()) {
       table.error_at_key(

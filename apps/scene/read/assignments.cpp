@@ -11,8 +11,6 @@
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/read/block_arrays.hpp"
-#include "apps/scene/read/block_reader.hpp"
-#include "apps/scene/read/region_reader.hpp"
 
 namespace ashlar {
 namespace {
@@ -165,24 +163,6 @@ class Assigner {
 };
 
 }  // namespace
-
-SceneAssign read_assignment(TomlTableReader& table) {
-  SceneAssign assign;
-  read_blocks_or_inside(table, assign.blocks, assign.inside);
-  const auto read = [](auto& result, auto value, auto reader) {
-    if (reader(value)) result = std::move(value);
-  };
-  read(assign.material, std::string(),
-       [&](std::string& value) { return table.read_name("material", value); });
-  assign.automatic_order = table.read_integer_or_auto("order", assign.order, 0, 12) && !assign.order;
-  read(assign.fixed, false, [&](bool& value) { return table.read_bool("fixed", value); });
-  read(assign.velocity, Vector3(), [&](Vector3& value) { return table.read_vector("velocity", value); });
-  read(assign.angular_velocity, Vector3(),
-       [&](Vector3& value) { return table.read_vector("angular_velocity", value); });
-  assign.fix = table.read_tables("fix", read_fix);
-  assign.load = table.read_tables("load", read_load);
-  return assign;
-}
 
 void apply_assignments(Scene& scene, Diagnostics& diagnostics) {
   Assigner assigner(scene, diagnostics);

@@ -5,11 +5,8 @@
 
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/scene.hpp"
-#include "apps/scene/toml/toml_table_reader.hpp"
 
 namespace ashlar {
-
-[[nodiscard]] SceneAssign read_assignment(TomlTableReader& table);
 
 /// Applies the scene's assignments without a region to blocks: the last matching one has priority, key by key. Supports and loads are
 /// added to those of a block. An arch's fill does not load a fixed voussoir. Places of assigned values are those of

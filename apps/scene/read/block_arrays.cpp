@@ -8,8 +8,6 @@
 namespace ashlar {
 namespace {
 
-constexpr std::size_t most_directions = 3;
-
 void move(std::variant<ScenePlane, Vector3>& where, const Vector3& way) {
   if (Vector3* point = std::get_if<Vector3>(&where))
     *point += way;
@@ -46,44 +44,10 @@ double memory_of(const SceneBlock& block) {
   return memory;
 }
 
-std::optional<SceneArray> read_array(TomlTableReader& block) {
-  std::optional<TomlTableReader> table = block.table("array");
-  if (!table) return std::nullopt;
-  SceneArray array;
-  for (const char* key : {"count", "step"}) table->require(key);
-  const bool counted = table->read_integers("count", array.count, 1, most_laid_blocks);
-  bool good = table->read_places("step", array.step, 1) && counted;
-  good = (table->read_place("stagger", array.stagger) || !table->given("stagger")) && good;
-  if (!counted) return std::nullopt;
-  if (array.count.empty() || array.count.size() > most_directions) {
-    table->error_at_value("count",
-                          fmt::format("count has the wrong length ({} entries), 1 to 3 directions are "
-                                      "needed",
-                                      array.count.size()));
-    return std::nullopt;
-  }
-  if (good && array.step.size() != array.count.size()) {
-    table->error_at_value("step",
-                          fmt::format("step has the wrong length ({} entries), one for each of the {} "
-                                      "counts is needed",
-                                      array.step.size(), array.count.size()));
-    return std::nullopt;
-  }
-  double blocks = 1.0;
-  for (const int count : array.count) blocks *= count;
-  if (blocks > most_laid_blocks) {
-    table->error_at_value("count", fmt::format("array is too large ({:.3g} blocks), at most {} are allowed",
-                                               blocks, most_laid_blocks));
-    return std::nullopt;
-  }
-  if (!good) return std::nullopt;
-  return array;
-}
-
 std::vector<SceneBlock> blocks_of_array(const SceneBlock& block) {
   const SceneArray& array = *block.array;
-  std::array<int, most_directions> count = {1, 1, 1};
-  std::array<Vector3, most_directions> step;
+  std::array<int, most_array_directions> count = {1, 1, 1};
+  std::array<Vector3, most_array_directions> step;
   step.fill(Vector3::Zero());
   std::copy(array.count.begin(), array.count.end(), count.begin());
   std::copy(array.step.begin(), array.step.end(), step.begin());

@@ -8,13 +8,6 @@
 
 namespace ashlar {
 
-void read_formulation(TomlTableReader& table, SceneAnalysis& analysis) {
-  FormulationChoice choice{analysis.formulation, analysis.paper};
-  if (!table.read_choice("formulation", choice, formulation_names)) return;
-  analysis.formulation = choice.formulation;
-  analysis.paper = choice.paper;
-}
-
 void imply_contact(Scene& scene, Diagnostics& diagnostics) {
   const auto imply = [&](const std::string& key, auto& value, auto implied, const auto& names) {
     const std::string path = "contact." + key;

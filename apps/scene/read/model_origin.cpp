@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
+#include "apps/scene/keys/scene_keys.hpp"
 #include "apps/scene/masonry/masonry.hpp"
 #include "apps/scene/meshes/mesh_import.hpp"
 #include "apps/scene/model/model_position.hpp"
-#include "apps/scene/read/block_reader.hpp"
 #include "apps/scene/toml/parameters.hpp"
 #include "apps/scene/toml/toml_table_reader.hpp"
 #include "geometry/mesh/volume_mesh.hpp"
@@ -86,9 +86,7 @@ Vector3 origin_of_model(const toml::table& document, const std::vector<std::stri
     include_block(block, std::visit(ShapeBox{folder}, block.shape), all);
   };
   (void)top.read_tables("block", [&](TomlTableReader& table) {
-    SceneBlock block;
-    read_block_place(table, block);
-    include(block);
+    include(keys::block_place_keys().read(table));
     return 0;
   });
   for (const std::vector<SceneBlock>& pieces : top.read_tables("masonry", read_masonry))

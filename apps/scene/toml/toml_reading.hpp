@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <optional>
 #include <set>
@@ -16,7 +17,7 @@
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/scene_places.hpp"
 #include "apps/scene/toml/formulas.hpp"
-#include "apps/scene/toml/key_recorder.hpp"
+#include "apps/scene/toml/number_ranges.hpp"
 
 namespace ashlar {
 
@@ -28,7 +29,7 @@ class TomlReading {
     const toml::table* table;
     std::string path;  ///< as in ScenePlaces
     std::string name;  ///< path without indices, as in a header: "block.fix"; "" is the top
-    std::set<std::string> keys;
+    std::set<std::string, std::less<>> keys;
   };
 
   /// @param files names under which the document and its includes were parsed, its own first; nodes of any other
@@ -70,11 +71,6 @@ class TomlReading {
   [[nodiscard]] std::optional<double> number(const toml::node& node, std::string_view key,
                                              const Formulas& formulas);
 
-  /// Records from then on the keys requested by readers. @param recorder must outlive the reading
-  void record_keys(KeyRecorder& recorder) { recorder_ = &recorder; }
-  /// Null: no recording.
-  [[nodiscard]] KeyRecorder* recorder() const { return recorder_; }
-
   /// Reports each key of a registered table that was never requested. For a key known in another table only, names
   /// that table: TOML makes it easy to write a key below the wrong header.
   void report_unknown_keys();
@@ -88,7 +84,6 @@ class TomlReading {
   Formulas formulas_;
   Vector3 origin_ = Vector3::Zero();
   double pieces_ = 0.0;
-  KeyRecorder* recorder_ = nullptr;
   std::list<KnownTable> tables_;  // readers keep references
 };
 

@@ -17,8 +17,7 @@ std::string TomlTableReader::child_name(std::string_view key) const {
 }
 
 const toml::node* TomlTableReader::find(std::string_view key) {
-  known_.keys.emplace(key);
-  if (reading_.recorder() != nullptr) reading_.recorder()->note_key(known_.name, std::string(key));
+  if (!known_.keys.contains(key)) known_.keys.emplace(key);
   return known_.table->get(key);
 }
 
@@ -35,7 +34,6 @@ bool TomlTableReader::holds_infinity(std::string_view key) {
 }
 
 void TomlTableReader::require(std::string_view key) {
-  if (reading_.recorder() != nullptr) reading_.recorder()->note_required(known_.name, std::string(key));
   if (given(key)) return;
   const std::string where = known_.name.empty() ? "the top of the file" : known_.name;
   reading_.error(reading_.places().key(known_.path),
@@ -55,7 +53,6 @@ void TomlTableReader::error_at_value(std::string_view key, std::string message) 
 }
 
 bool TomlTableReader::read_bool(std::string_view key, bool& result, const char* form) {
-  note(key, {.kind = KeyForm::Kind::boolean});
   const toml::node* node = find(key);
   if (!node) return false;
   if (!node->is_boolean()) {
@@ -67,7 +64,6 @@ bool TomlTableReader::read_bool(std::string_view key, bool& result, const char* 
 }
 
 bool TomlTableReader::read_text(std::string_view key, std::string& result) {
-  note(key, {.kind = KeyForm::Kind::text});
   const toml::node* node = find(key);
   if (!node) return false;
   if (!node->is_string()) {
@@ -93,7 +89,6 @@ bool TomlTableReader::read_name(std::string_view key, std::string& result) {
 }
 
 bool TomlTableReader::read_number(std::string_view key, double& result, const NumberRange& range) {
-  note(key, {.kind = KeyForm::Kind::number, .range = range});
   const toml::node* node = find(key);
   if (!node) return false;
   const std::optional<double> number = value(*node, key).number(range);
@@ -111,19 +106,16 @@ bool TomlTableReader::read_number(std::string_view key, std::optional<double>& r
 
 bool TomlTableReader::read_number_or_auto(std::string_view key, std::optional<double>& result,
                                           const NumberRange& range) {
-  note(key, {.kind = KeyForm::Kind::automatic});
   return read_number_or(key, "auto", result, range);
 }
 
 bool TomlTableReader::read_number_or_word(std::string_view key, const char* word,
                                           std::optional<double>& result, const NumberRange& range) {
-  note(key, {.kind = KeyForm::Kind::word, .words = {word}});
   return read_number_or(key, word, result, range);
 }
 
 bool TomlTableReader::read_number_or(std::string_view key, std::string_view word,
                                      std::optional<double>& result, const NumberRange& range) {
-  note(key, {.kind = KeyForm::Kind::number, .range = range});
   const toml::node* node = find(key);
   if (!node) return false;
   if (const auto* text = node->as_string(); text && **text == word) {
@@ -135,12 +127,7 @@ bool TomlTableReader::read_number_or(std::string_view key, std::string_view word
                      {range.low, range.high, range.low_allowed, range.high_allowed, words.c_str()});
 }
 
-static KeyForm whole_numbers(KeyForm::Kind kind, int low, int high) {
-  return {.kind = kind, .range = {static_cast<double>(low), static_cast<double>(high), true, true, ""}};
-}
-
 bool TomlTableReader::read_integer(std::string_view key, int& result, int low, int high) {
-  note(key, whole_numbers(KeyForm::Kind::whole_number, low, high));
   const toml::node* node = find(key);
   if (!node) return false;
   const std::optional<int> number = value(*node, key).whole_number(low, high);
@@ -149,7 +136,6 @@ bool TomlTableReader::read_integer(std::string_view key, int& result, int low, i
 }
 
 bool TomlTableReader::read_integers(std::string_view key, std::vector<int>& result, int low, int high) {
-  note(key, whole_numbers(KeyForm::Kind::whole_numbers, low, high));
   const toml::array* array = find_array(key, fmt::format("an array of {}", whole_number_words(low, high)));
   if (!array) return false;
   std::vector<int> integers;
@@ -169,8 +155,6 @@ bool TomlTableReader::read_integer(std::string_view key, std::optional<int>& res
 
 bool TomlTableReader::read_integer_or_auto(std::string_view key, std::optional<int>& result, int low,
                                            int high) {
-  note(key, {.kind = KeyForm::Kind::automatic});
-  note(key, whole_numbers(KeyForm::Kind::whole_number, low, high));
   const toml::node* node = find(key);
   if (!node) return false;
   if (const auto* text = node->as_string(); text && **text == "auto") {
@@ -216,7 +200,6 @@ const toml::array* TomlTableReader::find_array(std::string_view key, const std::
 }
 
 bool TomlTableReader::read_vector(std::string_view key, Vector3& result) {
-  note(key, {.kind = KeyForm::Kind::row, .width = 3});
   const toml::node* node = find(key);
   if (!node) return false;
   const auto row = value(*node, key).row(3, "[x, y, z]");
@@ -262,7 +245,6 @@ bool TomlTableReader::varies(std::string_view key) {
 
 bool TomlTableReader::read_field(std::string_view key, SceneField& result, std::size_t width,
                                  const char* words) {
-  note(key, {.kind = KeyForm::Kind::row, .width = width});
   const toml::array* array = find_array(key, words);
   if (!array) return false;
   if (array->size() != width) {
@@ -298,7 +280,6 @@ bool TomlTableReader::read_field(std::string_view key, SceneField& result, std::
 
 bool TomlTableReader::read_row(std::string_view key, std::vector<double>& result, std::size_t width,
                                const char* words) {
-  note(key, {.kind = KeyForm::Kind::row, .width = width});
   const toml::node* node = find(key);
   if (node == nullptr) return false;
   auto row = value(*node, key).row(width, words);
@@ -307,8 +288,6 @@ bool TomlTableReader::read_row(std::string_view key, std::vector<double>& result
 }
 
 bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>& result, const char* form) {
-  note(key, {.kind = KeyForm::Kind::texts});
-  if (*form != '\0') note(key, {.kind = KeyForm::Kind::table});
   const toml::array* array = find_array(key, fmt::format("an array of texts{}", form));
   if (!array) return false;
   std::vector<std::string> texts;
@@ -325,8 +304,6 @@ bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>&
 
 bool TomlTableReader::read_rows(std::string_view key, std::vector<std::vector<double>>& result,
                                 std::size_t width, std::size_t minimum, const char* words, const char* form) {
-  note(key, {.kind = KeyForm::Kind::rows, .width = width, .minimum = minimum});
-  if (*form != '\0') note(key, {.kind = KeyForm::Kind::record});
   const toml::array* array = find_array(key, fmt::format("an array of {}{}", words, form));
   if (!array) return false;
   if (array->size() < minimum) {
@@ -361,7 +338,6 @@ bool TomlTableReader::read_history(std::string_view key, std::vector<std::vector
 }
 
 std::optional<TomlTableReader> TomlTableReader::table(std::string_view key) {
-  note(key, {.kind = KeyForm::Kind::table});
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   if (!node->is_table()) {
@@ -371,14 +347,12 @@ std::optional<TomlTableReader> TomlTableReader::table(std::string_view key) {
   return TomlTableReader(reading_, *node->as_table(), path(key), child_name(key));
 }
 
-TomlTableReader TomlTableReader::table_or_empty(std::string_view key) {
+TomlTableReader TomlTableReader::empty_table(std::string_view key) {
   static const toml::table empty;
-  if (auto given_table = table(key)) return *given_table;
   return {reading_, empty, path(key), child_name(key)};
 }
 
 std::vector<std::optional<TomlTableReader>> TomlTableReader::tables(std::string_view key) {
-  note(key, {.kind = KeyForm::Kind::tables});
   const std::string name = child_name(key);
   const toml::array* array = find_array(key, fmt::format("a list of tables, each headed [[{}]],", name));
   std::vector<std::optional<TomlTableReader>> result;

@@ -26,9 +26,7 @@ class TomlTableReader {
  public:
   /// @param path,name see TomlReading::KnownTable. @param table must outlive the reader.
   TomlTableReader(TomlReading& reading, const toml::table& table, std::string path, std::string name)
-      : reading_(reading), known_(reading.add_table(table, std::move(path), std::move(name))) {
-    if (reading_.recorder() != nullptr) reading_.recorder()->note_table(known_.name);
-  }
+      : reading_(reading), known_(reading.add_table(table, std::move(path), std::move(name))) {}
 
   [[nodiscard]] const std::string& path() const { return known_.path; }
   [[nodiscard]] const std::string& name() const { return known_.name; }
@@ -48,7 +46,7 @@ class TomlTableReader {
   void error_at_table(std::string message);
   void error_at_key(std::string_view key, std::string message);
   void error_at_value(std::string_view key, std::string message);
-  /// Reports a key of earlier versions, if given. It is not part of the schema.
+  /// Reports a key of earlier versions, if given.
   void refuse_former(std::string_view key, std::string message);
 
   /// True if the key holds a text. Makes it a known one.
@@ -95,32 +93,27 @@ class TomlTableReader {
   bool read_history(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
                     const char* words, const char* form = "");
 
+  /// One of several words. @return its index
+  [[nodiscard]] std::optional<std::size_t> read_word(std::string_view key,
+                                                     const std::vector<std::string>& words);
+  /// An array of some of several words, each at most once.
+  bool read_words_among(std::string_view key, std::vector<std::string>& result,
+                        const std::vector<std::string>& words);
   /// One of several words.
   template <typename Names, typename Choice>
   bool read_choice(std::string_view key, Choice& result, const Names& names) {
     std::vector<std::string> words;
     words.reserve(std::size(names));
     for (const auto& [word, choice] : names) words.emplace_back(word);
-    note(key, {.kind = KeyForm::Kind::word, .words = words});
     const std::optional<std::size_t> index = read_word(key, words);
     if (index) result = names[*index].second;
     return index.has_value();
   }
 
-  /// An array of some of several words, each at most once.
-  template <typename Names>
-  bool read_words(std::string_view key, std::vector<std::string>& result, const Names& names) {
-    std::vector<std::string> words;
-    words.reserve(std::size(names));
-    for (const auto& [word, choice] : names) words.emplace_back(word);
-    note(key, {.kind = KeyForm::Kind::words, .words = words});
-    return read_words_among(key, result, words);
-  }
-
   /// A table; empty if absent or faulty.
   [[nodiscard]] std::optional<TomlTableReader> table(std::string_view key);
-  /// A table; an absent or faulty one reads as empty, so that its keys become known.
-  [[nodiscard]] TomlTableReader table_or_empty(std::string_view key);
+  /// An empty one in place of the table of a key, whose keys it makes known.
+  [[nodiscard]] TomlTableReader empty_table(std::string_view key);
   /// Results of `read` for each entry of an array of tables. An entry that is no table is a fault with a default
   /// result, so that indices are preserved; empty if absent or no array.
   template <typename Read>
@@ -135,18 +128,9 @@ class TomlTableReader {
  private:
   bool read_number_or(std::string_view key, std::string_view word, std::optional<double>& result,
                       const NumberRange& range);
-  /// Records a key for a schema.
-  void note(std::string_view key, KeyForm form) {
-    if (reading_.recorder() != nullptr)
-      reading_.recorder()->note_form(known_.name, std::string(key), std::move(form));
-  }
   /// Null for entries that are no tables.
   [[nodiscard]] std::vector<std::optional<TomlTableReader>> tables(std::string_view key);
   [[nodiscard]] const toml::node* find(std::string_view key);
-  [[nodiscard]] std::optional<std::size_t> read_word(std::string_view key,
-                                                     const std::vector<std::string>& words);
-  bool read_words_among(std::string_view key, std::vector<std::string>& result,
-                        const std::vector<std::string>& words);
   [[nodiscard]] const toml::array* find_array(std::string_view key, const std::string& words);
   [[nodiscard]] std::string child_name(std::string_view key) const;
   /// A node held by the key, or an element of its array.

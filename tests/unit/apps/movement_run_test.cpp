@@ -94,7 +94,7 @@ TEST_F(MovementRun, RefusesWhatCannotBeMoved) {
   EXPECT_THAT(faults_, AllOf(HasSubstr(":3:"), HasSubstr("movement names no support (\"left\")")));
   write_text(scene_, flat_arch("movement = { supports = [\"*\"], direction = [0, 0, 0] }"));
   EXPECT_EQ(run("out"), 2);
-  EXPECT_THAT(faults_, AllOf(HasSubstr(":3:"), HasSubstr("direction is zero")));
+  EXPECT_THAT(faults_, AllOf(HasSubstr(":3:"), HasSubstr("direction has no direction")));
   write_text(scene_, flat_arch("movement = { supports = [\"*\"] }\ngravity = [0, 0, 0]"));
   EXPECT_EQ(run("out"), 2);
   EXPECT_THAT(faults_, HasSubstr("no load acts"));

@@ -120,7 +120,7 @@ TEST_F(PushoverRun, RefusesWhatItCannotPush) {
     return faults_;
   };
   EXPECT_THAT(refused(""), HasSubstr("has no direction"));
-  EXPECT_THAT(refused("pushover = { direction = [0, 0, 0] }"), HasSubstr("direction is zero"));
+  EXPECT_THAT(refused("pushover = { direction = [0, 0, 0] }"), HasSubstr("direction has no direction"));
   EXPECT_THAT(refused("pushover = { direction = [1, 0, 0], control = \"tip\" }"),
               AllOf(HasSubstr("no measure of a point or a block (\"tip\")"), HasSubstr("\"top\"")));
   EXPECT_THAT(refused("pushover = { direction = [1, 0, 0], blocks = [\"nothing\"] }"),
@@ -133,7 +133,7 @@ TEST_F(PushoverRun, RefusesWhatItCannotPush) {
   EXPECT_THAT(refused("pushover = { direction = [1, 0, 0] }\nspectrum = { points = [[1, 1], [0, 1]] }"),
               HasSubstr("out of order or negative"));
   EXPECT_THAT(refused("pushover = { direction = [1, 0, 0] }\nspectrum = { damping = 5 }"),
-              HasSubstr("spectrum has 0 of points, file and code"));
+              HasSubstr("spectrum has no source (none given), exactly one of points, file, code is needed"));
   EXPECT_THAT(refused("pushover = { direction = [1, 0, 0] }\nspectrum = { file = \"none.csv\" }"),
               HasSubstr("record cannot be read"));
 }

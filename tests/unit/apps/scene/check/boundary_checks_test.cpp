@@ -106,7 +106,7 @@ TEST(BoundaryChecks, UnknownKindsAndLostDirectionsAreFaults) {
   EXPECT_THAT(faults_of(base + "direction = [1, 0, 0]\nwave = [[0, 0, 0, 0]]"),
               ElementsAre(HasSubstr("direction of rows with three components")));
   EXPECT_THAT(faults_of(base + "direction = [0, 0, 0]\nwave = [[0, 0, 0, 0]]"),
-              ElementsAre(HasSubstr("direction is zero")));
+              ElementsAre(HasSubstr("direction has no direction")));
 }
 
 TEST(BoundaryChecks, AMotionWithoutRestIsWarnedOf) {

@@ -284,7 +284,7 @@ TEST(SceneCuts, FaultsHaveTheirPlaces) {
                 "distribution = \"exponential\" }\nmost_blocks = 100000000\n",
             "too far from the blocks for this spacing (1e+06 m), less than 1e+07 spacings are allowed"},
            {head + "voronoi = { count = 3 }\ndip = 3\n",
-            "s.toml:21:1: error: dip beside voronoi (both given); give one of both"},
+            "s.toml:21:1: error: dip beside voronoi (both given), only one of both is allowed"},
            {head + "voronoi = { count = 3000000 }\n",
             "s.toml:20:11: error: cut \"c\" makes too many blocks (about 3e+06 in the scene), at most "
             "most_blocks"},
