@@ -38,6 +38,10 @@ void FolderRecorder::step_taken(const Run& run) {
   run.answer().shows_states() ? files_->add_state(run.simulation()) : files_->add_step(run.simulation());
 }
 
+void FolderRecorder::blocks_crack(const Run& run) {
+  files_->divide_blocks(run.whole(), run.simulation());
+}
+
 void FolderRecorder::stage_ends(const Run& run) {
   draw_answer(run.answer(), run.scene(), run.simulation(), claim_->folder());
   files_->add_end(run.simulation());

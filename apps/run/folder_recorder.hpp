@@ -23,6 +23,7 @@ class FolderRecorder : public RunObserver {
   void run_begins(const Run& run) override;
   void stage_begins(const Run& run) override;
   void step_taken(const Run& run) override;
+  void blocks_crack(const Run& run) override;
   void stage_ends(const Run& run) override;
   void run_ends(const Run& run) override;
   void save_after_failure(const Run& run) override;

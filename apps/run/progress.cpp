@@ -82,11 +82,15 @@ void ProgressLine::update(const ProgressState& state) {
   if (due) write();
 }
 
+void ProgressLine::pause() {
+  if (line_open_) out_ << '\n' << std::flush;
+  line_open_ = false;
+}
+
 void ProgressLine::finish() {
   if (mode_ == ProgressMode::silent) return;
   if (unwritten_) write();
-  if (line_open_) out_ << '\n' << std::flush;
-  line_open_ = false;
+  pause();
   mode_ = ProgressMode::silent;
 }
 

@@ -46,6 +46,8 @@ class ProgressLine {
   /// Cheap to call after every step: output is limited to ten a second (live), one in five seconds (plain). The time
   /// left is extrapolated with the mean speed since the first call.
   void update(const ProgressState& state);
+  /// Ends a live line, so that a message starts on a new one. The next state is written below it.
+  void pause();
   /// Writes the last state unless it has been written. No output is written afterwards.
   void finish();
 

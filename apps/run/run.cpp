@@ -153,7 +153,7 @@ void Run::take_step() {
                       simulation.steps() + 1, simulation.time(), last.step, reason_of(last, simulation)));
     }
     if (automatic) note_step(simulation, preparation_->accuracy()->motion);
-    if (!accept_step()) return;
+    if (!accept_step() || !divide_cracked()) return;
   }
   if (simulation.reached(end_time)) end_stage(RunStatus::completed, "");
 }
@@ -173,6 +173,8 @@ void Run::take_iteration() {
     findings_->note_iteration(simulation);
     if (!record_step()) return;
   }
+  // The level continues with the parts.
+  if (found != StaticStatus::moving && divide_cracked().value_or(true)) return;
   switch (found) {
     case StaticStatus::balancing:
       return;
@@ -226,6 +228,18 @@ bool Run::record_step() {
   history_->add(simulation(), place(), stage());
   const Stopwatch watch(clock_.output());
   return record_->tell(&RunObserver::step_taken, *this, end_);
+}
+
+/// Divides blocks that have cracked.
+/// @return true if there are any; empty: the run has failed
+std::optional<bool> Run::divide_cracked() {
+  bool any = false;
+  if (!attempt([&] { any = stages_->divide_cracked(); })) return std::nullopt;
+  if (!any) return false;
+  history_->set_measures(written_measures(whole(), simulation(), stages_->group()));
+  points_ = std::make_unique<const BlockPoints>();
+  if (!record_->tell(&RunObserver::blocks_crack, *this, end_)) return std::nullopt;
+  return true;
 }
 
 void Run::end_stage(RunStatus status, std::string message) {

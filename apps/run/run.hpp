@@ -33,6 +33,7 @@
 #include "apps/scene/assemble/build_simulation.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
 #include "solver/accuracy/goal_error.hpp"
+#include "solver/fracture/crack.hpp"
 #include "solver/run/order_error.hpp"
 
 namespace ashlar {
@@ -104,6 +105,8 @@ class Run {
   /// Of a search; empty until it has ended.
   [[nodiscard]] const Answer& answer() const;
 
+  /// Cracks of blocks so far. Their numbers are those of simulation().blocks().
+  [[nodiscard]] const CrackRecord& cracks() const;
   /// Index of a block in simulation().blocks(). @throws std::out_of_range if there is none of that name
   [[nodiscard]] int block(const std::string& name) const;
   /// True if a block is present in the present stage: stages remove blocks, and add others later.
@@ -197,6 +200,7 @@ class Run {
   bool attempt(const std::function<void()>& step);
   bool accept_step();
   bool record_step();
+  std::optional<bool> divide_cracked();
   void end_stage(RunStatus status, std::string message);
   void end_undecided();
   void interrupt();

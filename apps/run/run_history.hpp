@@ -1,6 +1,7 @@
 // The measures of a run, and the rows of its history in memory.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "apps/results/columns/history_columns.hpp"
@@ -17,6 +18,8 @@ class RunHistory {
   RunHistory(std::vector<Measure> measures, bool keeps_rows);
 
   [[nodiscard]] const std::vector<Measure>& measures() const { return measures_; }
+  /// The same measures of blocks that have cracked.
+  void set_measures(std::vector<Measure> measures) { measures_ = std::move(measures); }
   [[nodiscard]] bool keeps_rows() const { return keeps_rows_; }
   /// @param staged true: with the number of the stage
   [[nodiscard]] std::vector<Column> columns(bool staged) const { return history_columns(measures_, staged); }

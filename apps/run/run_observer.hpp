@@ -42,6 +42,8 @@ class RunObserver {
   virtual void stage_begins(const Run& /*run*/) {}
   /// A step was accepted, or a static analysis has taken an iteration.
   virtual void step_taken(const Run& /*run*/) {}
+  /// Blocks have cracked after a step or at an equilibrium: Run::cracks() has new events.
+  virtual void blocks_crack(const Run& /*run*/) {}
   /// The last step of a stage is taken. Blocks are not audited yet: a run that is continued from here has no end here.
   virtual void stage_stops(const Run& /*run*/) {}
   /// stage_status() and message() are those of the end of the stage.

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "apps/run/run.hpp"
+#include "geometry/index.hpp"
 
 namespace ashlar {
 namespace {
@@ -59,6 +60,7 @@ void RunProgress::trial_stops(double factor, int iterations) {
 
 void RunProgress::stage_begins(const Run& run) {
   line_.emplace(run.scene().analysis.end_time, quiet_, out_);
+  told_cracks_ = run.cracks().events.size();
 }
 
 void RunProgress::step_taken(const Run& run) {
@@ -68,6 +70,20 @@ void RunProgress::step_taken(const Run& run) {
     return;
   }
   if (line_) line_->update(progress_of(run.simulation()));
+}
+
+void RunProgress::blocks_crack(const Run& run) {
+  const std::vector<CrackEvent>& events = run.cracks().events;
+  const std::vector<BlockModel>& blocks = run.simulation().blocks();
+  if (!quiet_ && line_) line_->pause();
+  for (; told_cracks_ < events.size(); ++told_cracks_) {
+    if (quiet_) continue;
+    const CrackEvent& crack = events[told_cracks_];
+    std::string parts;
+    for (const int part : crack.parts) parts += (parts.empty() ? "" : ", ") + blocks[at(part)].name();
+    out_ << fmt::format("t = {:.6g} s: crack of {:.4g} m^2 at {:.4g} Pa: {}\n", crack.time, crack.area,
+                        crack.stress, parts);
+  }
 }
 
 void RunProgress::stage_ends(const Run& run) {

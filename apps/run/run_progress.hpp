@@ -22,6 +22,7 @@ class RunProgress : public RunObserver {
   void trial_stops(double factor, int iterations) override;
   void stage_begins(const Run& run) override;
   void step_taken(const Run& run) override;
+  void blocks_crack(const Run& run) override;
   void stage_ends(const Run& run) override;
   void save_after_failure(const Run& run) override;
   /// Ends the progress line, so that a message starts on a new one.
@@ -31,6 +32,7 @@ class RunProgress : public RunObserver {
   std::ostream& out_;
   bool quiet_;
   double told_;  ///< time of the last line of a trial
+  std::size_t told_cracks_ = 0;
   std::optional<ProgressLine> line_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "apps/results/columns/history_columns.hpp"
 #include "apps/results/columns/summary_units.hpp"
+#include "apps/results/folder/crack_summary.hpp"
 #include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/folder/run_summary.hpp"
@@ -65,6 +66,10 @@ const SceneIdentity& Run::identity() const {
 
 const StagePlace& Run::place() const {
   return stages_->place();
+}
+
+const CrackRecord& Run::cracks() const {
+  return stages_->cracks();
 }
 
 const Simulation& Run::simulation() const {
@@ -180,6 +185,7 @@ void Run::resume(const std::filesystem::path& folder) {
 void Run::resume(RunCheckpoint checkpoint) {
   if (!preparation_->allows_checkpoint()) throw std::logic_error("the run has begun, a new one is needed");
   stages_->resume(checkpoint);
+  if (!checkpoint.cracks.events.empty()) history_->set_measures(measures_of(whole(), simulation().blocks()));
   findings_->resume(checkpoint.changes, checkpoint.falls);
   clock_.add_earlier(checkpoint.seconds);
   preparation_->resume(whole(), std::move(checkpoint));
@@ -201,7 +207,7 @@ RunCheckpoint Run::checkpoint_with(SimulationSnapshot simulation) const {
   const AccuracyState* choice = accuracy();
   return {std::move(simulation), stages_->finished(),  {},
           clock_.seconds(),      findings_->changes(), choice != nullptr ? *choice : AccuracyState{},
-          findings_->falls()};
+          findings_->falls(),    stages_->cracks()};
 }
 
 LargestValues Run::largest() const {
@@ -247,6 +253,7 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
       {status, message(), clock_.seconds(), frames, largest, std::move(begun), findings_->work()});
   if (auto error = error_part(*this, [this] { return summary_order_errors(); }); !error.is_null())
     summary["error"] = std::move(error);
+  if (!whole().crack.empty()) add_cracks(summary, cracks(), whole(), simulation());
   add_answer(summary, answer(), whole().analysis, simulation());
   if (verdict()) summary["verdict"] = verdict_json(*verdict(), simulation());
   record_->add_peaks(summary);

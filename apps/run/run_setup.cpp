@@ -10,6 +10,7 @@
 #include "apps/run/answers/limit_run.hpp"
 #include "apps/run/answers/movement_run.hpp"
 #include "apps/run/answers/pushover_run.hpp"
+#include "apps/scene/assemble/cracking_blocks.hpp"
 #include "apps/scene/check/warnings/loose_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 void refuse_idle_cracks(const Scene& scene, const std::vector<BlockModel>& blocks, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < scene.measure.size(); ++k) {
     const std::optional<SceneCrack>& crack = scene.measure[k].crack;
-    if (crack && joint_polygons(scene, *crack, blocks).polygons.empty())
+    if (crack && scene.crack.empty() && joint_polygons(scene, *crack, blocks).polygons.empty())
       diagnostics.error(scene.places.key(fmt::format("measure.{}.crack", k)),
                         "no faces of these blocks touch (0 joints), at least one joint is needed");
   }
@@ -61,6 +62,7 @@ std::optional<BuiltSimulation> build_first_stage(std::shared_ptr<const LoadedSce
       build_simulation(*first, threads, diagnostics, preparation, {}, group.ranks());
   if (built) built->scene = first;
   if (built && is_static(scene.analysis)) refuse_loose_blocks(scene, built->simulation, diagnostics);
+  if (built) check_cracking(scene, built->simulation, diagnostics);
   if (!built || !diagnostics.good()) return built;
   if (!group.shared()) {
     refuse_idle_searches(scene, built->simulation, diagnostics);

@@ -8,6 +8,7 @@
 
 #include "apps/run/accuracy_choice.hpp"
 #include "apps/run/run_setup.hpp"
+#include "apps/scene/assemble/cracking_blocks.hpp"
 #include "apps/scene/check/added_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/toml/fault_text.hpp"
@@ -22,7 +23,8 @@ RunStages::RunStages(std::shared_ptr<const LoadedScene> whole, BuiltSimulation f
       identity_(scene_identity(*whole_)),
       threads_(threads),
       group_(group),
-      built_(std::move(first)) {}
+      built_(std::move(first)),
+      cracks_(cracked_blocks(present_, built_.simulation)) {}
 
 bool RunStages::end(bool done) {
   const bool follows = done && static_cast<std::size_t>(place_.stage) < stage_count(whole());
@@ -43,12 +45,15 @@ std::optional<std::string> RunStages::begin_next(const FinishedStage& last) {
   try {
     std::shared_ptr<const LoadedScene> scene = stage_scene(whole_, next);
     BuiltSimulation stage = built_stage(scene, threads_, group_);
+    std::unique_ptr<CrackedBlocks> cracks = cracked_blocks(scene, stage.simulation);
+    if (cracks) cracks->repeat(cracks_->record(), stage.simulation);
     stage.simulation.start_stage(simulation());
     if (const auto overlap = overlap_of_added(stage.simulation, was_absent)) return refusal(*overlap);
     finished_.push_back(last);
     place_.elapsed += simulation().time();
     present_ = std::move(scene);
     built_ = std::move(stage);
+    cracks_ = std::move(cracks);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -61,6 +66,7 @@ std::optional<std::string> RunStages::begin_next(const FinishedStage& last) {
 
 void RunStages::rebuild(const TrialFactors& factors) {
   built_ = built_stage(present_, threads_, group_, factors);
+  cracks_ = cracked_blocks(present_, simulation());
 }
 
 void RunStages::rebuild(const AccuracyState& choice) {
@@ -78,6 +84,7 @@ void RunStages::resume(const RunCheckpoint& checkpoint) {
     const double time_step = checkpoint.accuracy.motion.time_step;
     if (time_step > 0.0) simulation().set_time_step(time_step);
   }
+  if (cracks_) cracks_->repeat(checkpoint.cracks, simulation());
   simulation().restore(checkpoint.simulation);
   const SceneAnalysis& analysis = scene().analysis;
   if (simulation().time() - analysis.end_time > time_rounding(analysis.time_step, analysis.end_time))
@@ -88,6 +95,18 @@ void RunStages::resume(const RunCheckpoint& checkpoint) {
   finished_ = checkpoint.stages;
   place_ = {static_cast<int>(finished_.size()) + 1, checkpoint.folder.progress.elapsed,
             checkpoint.folder.progress.origin};
+}
+
+bool RunStages::divide_cracked() {
+  if (!cracks_) return false;
+  if (is_static(scene().analysis) && !simulation().snapshot_without_pairs().run.statics.balanced)
+    return false;
+  return cracks_->divide(simulation(), static_cast<int>(finished_.size())) > 0;
+}
+
+const CrackRecord& RunStages::cracks() const {
+  static const CrackRecord none;
+  return cracks_ ? cracks_->record() : none;
 }
 
 void RunStages::reset_displacement(const std::vector<Measure>& measures) {

@@ -14,6 +14,7 @@
 #include "apps/run/run_group.hpp"
 #include "apps/scene/assemble/build_simulation.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
+#include "solver/fracture/cracked_blocks.hpp"
 
 namespace ashlar {
 
@@ -49,6 +50,10 @@ class RunStages {
   /// Goes to the stage and state of a checkpoint of the same scene. Collective.
   /// @throws std::invalid_argument if it has passed the scene's end_time, std::runtime_error
   void resume(const RunCheckpoint& checkpoint);
+  /// Divides blocks that have cracked, in a static analysis at the balance of a load level. @return true if there are any. @throws std::length_error as CrackedBlocks::divide
+  bool divide_cracked();
+  /// Empty if no block cracks.
+  [[nodiscard]] const CrackRecord& cracks() const;
   /// Displacements in results count from the present state. @param measures of the whole scene
   void reset_displacement(const std::vector<Measure>& measures);
 
@@ -84,6 +89,7 @@ class RunStages {
   Next next_ = Next::first_step;
   StagePlace place_;
   std::vector<FinishedStage> finished_;
+  std::unique_ptr<CrackedBlocks> cracks_;  ///< null: no block of the scene cracks
 };
 
 }  // namespace ashlar

@@ -7,6 +7,7 @@
 #include "apps/results/tables/contact_state.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "geometry/index.hpp"
+#include "solver/fracture/cracked_blocks.hpp"
 
 namespace ashlar {
 namespace {
@@ -130,6 +131,12 @@ constexpr ColumnOf<CrackWidths> crack_columns[] = {
      [](const CrackWidths& crack) { return crack.open_area; }},
 };
 
+constexpr ColumnOf<double> fracture_columns[] = {
+    {"cracks", "J", "energies",
+     "fracture energy of the damaged area of cracks that have appeared, a part of energy.friction",
+     [](const double& energy) { return energy; }},
+};
+
 constexpr ColumnOf<RunRow> time_columns[] = {
     {"time", "s", "", "time, of the present stage", [](const RunRow& run) { return run.time; }},
     {"dt", "s", "step size", "length of the step that ends here",
@@ -220,6 +227,7 @@ void visit_columns(Measure::Kind kind, Part part, const Visit& visit) {
     if (part == Part::added && of_block) visit(travel_columns);
     return;
   }
+  if (part == Part::added && kind == Measure::Kind::fracture) visit(fracture_columns);
   if (part != Part::measures) return;
   if (kind == Measure::Kind::pair) visit(pair_columns);
   if (kind == Measure::Kind::bolt) visit(bolt_columns);
@@ -264,6 +272,8 @@ class RowWriter {
       append(columns, measured_bolt(simulation_, measures_[k]));
     if constexpr (std::is_same_v<Source, CrackWidths>)
       append(columns, measured_cracks(simulation_, *measures_[k].joints));
+    if constexpr (std::is_same_v<Source, double>)
+      append(columns, energy_of_cracks(simulation_, *measures_[k].parts));
     if constexpr (std::is_same_v<Source, MeasuredDrift>) {
       Vector3 drift = measured_drift(simulation_, *measures_[k].levels);
       if (const Vector3* origin = origin_of(k)) drift -= *origin;
@@ -367,12 +377,6 @@ std::vector<std::string> names_of(const std::vector<Column>& columns) {
   names.reserve(columns.size());
   for (const Column& column : columns) names.push_back(column.name);
   return names;
-}
-
-std::string present_name(const std::string& column) {
-  if (column == "energy.refound_gained") return "energy.redetection_gained";
-  if (column == "energy.refound_lost") return "energy.redetection_lost";
-  return column;
 }
 
 std::string column_units(const std::vector<Column>& columns) {

@@ -33,7 +33,11 @@ struct MeasureColumns {
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<Column>& columns);
 
 /// The present name of a column that an earlier version wrote under another one; other names unchanged.
-[[nodiscard]] std::string present_name(const std::string& column);
+[[nodiscard]] inline std::string present_name(const std::string& column) {
+  if (column == "energy.refound_gained") return "energy.redetection_gained";
+  if (column == "energy.refound_lost") return "energy.redetection_lost";
+  return column;
+}
 
 /// history.units.json: {NAME: {"unit", "measure", "group", "meaning"}}, `measure` empty for columns of the run, in the order of the columns.
 [[nodiscard]] std::string column_units(const std::vector<Column>& columns);

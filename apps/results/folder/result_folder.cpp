@@ -136,6 +136,13 @@ void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, boo
   if (reset_displacement) progress_.origin = origin_of(simulation, measures_, drawn_);
 }
 
+void ResultFolder::divide_blocks(const Scene& scene, const Simulation& simulation) {
+  measures_ = measures_of(scene, simulation.blocks());
+  drawn_ = drawn_blocks(simulation.blocks(), output_);
+  joint_surfaces_ = joint_surfaces(simulation.blocks());
+  actions_ = drawn_actions(scene, simulation.blocks());
+}
+
 void ResultFolder::check_in_place() const {
   history_.check_in_place();
   contact_rows_.check_in_place();

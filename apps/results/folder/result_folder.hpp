@@ -92,6 +92,8 @@ class ResultFolder {
   /// Starts another stage of a staged analysis. The frame of its start is that of add_end() for the last one.
   /// @param simulation at the start of the stage. @param elapsed s, of all stages before
   void begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement);
+  /// Blocks have cracked: later rows and frames show the parts. @param scene the whole one
+  void divide_blocks(const Scene& scene, const Simulation& simulation);
   /// Adds row and frame of the end of a run or stage, whether they are due or not. A run continued from an earlier
   /// checkpoint removes them.
   void add_end(const Simulation& simulation);

@@ -13,6 +13,7 @@
 #include "apps/results/folder/motion_verdict.hpp"
 #include "apps/results/folder/result_folder.hpp"
 #include "apps/results/folder/run_outcome.hpp"
+#include "solver/fracture/crack.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/shared/pairs_of_run.hpp"
 
@@ -26,9 +27,10 @@ struct RunCheckpoint {
   std::vector<FinishedStage> stages;  ///< earlier stages
   ResultFolderState folder;
   RunSeconds seconds;
-  ContactChanges changes;  ///< of static iterations of the present stage
-  AccuracyState accuracy;  ///< of a scene with an accuracy
-  FallRecord falls = {};   ///< of steps in time
+  ContactChanges changes;   ///< of static iterations of the present stage
+  AccuracyState accuracy;   ///< of a scene with an accuracy
+  FallRecord falls = {};    ///< of steps in time
+  CrackRecord cracks = {};  ///< of all stages
 };
 
 /// Reason why a run cannot be continued: no checkpoint, a damaged one, or one of another scene. what() is a message

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <variant>
 
+#include "apps/results/tables/original_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "geometry/index.hpp"
 #include "mechanics/supports/face_selection.hpp"
@@ -139,16 +142,27 @@ void add_support(const Simulation& simulation, const DrawnSupport& support, Unst
 
 DrawnActions drawn_actions(const Scene& scene, const std::vector<BlockModel>& blocks) {
   DrawnActions actions;
+  const std::vector<int> originals = original_blocks(scene, blocks);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const std::size_t original = at(originals[k]);
+    const bool has_parts = std::count(originals.begin(), originals.end(), originals[k]) > 1;
     actions.moving.emplace_back();
-    for (const SceneLoad& load : scene.block[k].load) actions.moving.back().push_back(load.of_path);
+    if (!has_parts)
+      for (const SceneLoad& load : scene.block[k].load) actions.moving.back().push_back(load.of_path);
     if (blocks[k].fixed() || blocks[k].incremental() != nullptr) continue;
-    for (const SceneFix& fix : scene.block[k].fix)
-      actions.supports.push_back(support_of(fix, k, 0, blocks[k].solid()));
+    const auto add = [&](const SceneFix& fix, int stage) {
+      // The parts of a block have its supports where they have its faces.
+      const auto* point = std::get_if<Vector3>(&fix.where);
+      if (has_parts && point != nullptr &&
+          part_at(blocks, originals, originals[k], *point) != static_cast<int>(k))
+        return;
+      DrawnSupport support = support_of(fix, k, stage, blocks[k].solid());
+      if (point != nullptr || !support.triangles.empty()) actions.supports.push_back(std::move(support));
+    };
+    for (const SceneFix& fix : scene.block[original].fix) add(fix, 0);
     for (std::size_t s = 0; s < scene.stage.size(); ++s)
       for (const SceneStage::Fix& entry : scene.stage[s].fix)
-        if (means_block(scene, entry.blocks, k))
-          actions.supports.push_back(support_of(entry.fix, k, static_cast<int>(s) + 1, blocks[k].solid()));
+        if (means_block(scene, entry.blocks, original)) add(entry.fix, static_cast<int>(s) + 1);
   }
   return actions;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/results/tables/original_blocks.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
@@ -32,7 +33,9 @@ class Selection {
   Selection(const Scene& scene, const SceneCrack& crack)
       : scene_(scene), crack_(crack), joints_(scene, crack.joints) {}
 
+  /// @param a,b blocks of the scene; the same: a crack in it
   [[nodiscard]] bool contains(std::size_t a, std::size_t b) const {
+    if (a == b) return crack_.to.empty() && means_block(scene_, crack_.joints, a);
     if (!joints_.contains(a, b)) return false;
     if (crack_.to.empty()) return true;
     // A block named in both lists is on one side only.
@@ -135,13 +138,14 @@ Vector3 measured_drift(const Simulation& simulation, const DriftLevels& levels) 
 JointPolygons joint_polygons(const Scene& scene, const SceneCrack& crack,
                              const std::vector<BlockModel>& blocks) {
   const Selection selection(scene, crack);
+  const std::vector<int> originals = original_blocks(scene, blocks);
   JointPolygons joints;
   std::vector<Box> boxes;
   boxes.reserve(blocks.size());
   for (const BlockModel& block : blocks)
     boxes.push_back(box_of(block.solid().mesh().points).grown(allowed_offset(block.solid())));
   for (const std::array<int, 2>& pair : meeting_boxes(boxes)) {
-    if (!selection.contains(at(pair[0]), at(pair[1]))) continue;
+    if (!selection.contains(at(originals[at(pair[0])]), at(originals[at(pair[1])]))) continue;
     for (const CommonPolygon& common :
          common_polygons(blocks[at(pair[0])].solid(), blocks[at(pair[1])].solid())) {
       JointPolygons::Polygon polygon{pair, common.frame.w, {}};

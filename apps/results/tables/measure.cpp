@@ -5,6 +5,8 @@
 #include <numbers>
 #include <set>
 
+#include "apps/results/tables/original_blocks.hpp"
+#include "apps/scene/check/water_checks.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -29,6 +31,11 @@ Vector3 place_of(const BlockModel& block, const BlockState& state, const Vector3
 
 std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks) {
   std::vector<Measure> measures;
+  std::shared_ptr<const std::vector<int>> parts;
+  if (!scene.crack.empty()) {
+    parts = std::make_shared<const std::vector<int>>(original_blocks(scene, blocks));
+    measures.reserve(scene.measure.size() + 1);
+  }
   for (const SceneMeasure& given : scene.measure) {
     if (!given.bolt.empty()) {
       measures.push_back({given.name, Measure::Kind::bolt, 0, Vector3::Zero(), -1, given.bolt});
@@ -50,12 +57,17 @@ std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockMode
       continue;
     }
     const int block = index_of(scene, given.block);
-    if (given.point)
+    if (given.point && parts)
+      measures.push_back(
+          {given.name, Measure::Kind::point, part_at(blocks, *parts, block, *given.point), *given.point, -1});
+    else if (given.point)
       measures.push_back({given.name, Measure::Kind::point, block, *given.point, -1});
     else
       measures.push_back({given.name, Measure::Kind::block, block, blocks[at(block)].basis().centroid(), -1});
   }
+  if (parts) measures.push_back({.name = "energy", .kind = Measure::Kind::fracture});
   for (Measure& measure : measures) {
+    measure.parts = parts;
     measure.origin = scene.origin;
     measure.up = up_of(scene);
   }
@@ -72,7 +84,7 @@ ResultNeeds needs_of(const std::vector<Measure>& measures) {
     } else if (measure.joints != nullptr) {
       for (const JointPolygons::Polygon& polygon : measure.joints->polygons)
         blocks.insert(polygon.blocks.begin(), polygon.blocks.end());
-    } else if (measure.kind != Measure::Kind::bolt) {
+    } else if (measure.kind != Measure::Kind::bolt && measure.kind != Measure::Kind::fracture) {
       blocks.insert(measure.block);
     }
     if (measure.kind != Measure::Kind::pair) continue;
@@ -128,28 +140,36 @@ BoltMeasure measured_bolt(const Simulation& simulation, const Measure& measure) 
 
 PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) {
   const auto [low, high] = std::minmax(measure.block, measure.other);
-  const auto record =
-      std::find_if(simulation.contacts().begin(), simulation.contacts().end(),
-                   [&, a = low, b = high](const PairRecord& pair) { return pair.a == a && pair.b == b; });
+  const auto is_of_pair = [&, a = low, b = high](const PairRecord& pair) {
+    if (!measure.parts) return pair.a == a && pair.b == b;
+    const auto [first, second] = std::minmax((*measure.parts)[at(pair.a)], (*measure.parts)[at(pair.b)]);
+    return first == a && second == b;
+  };
   PairMeasure result{0.0, 0.0, not_measured, not_measured, 0.0};
-  if (record == simulation.contacts().end() || record->points.empty()) return result;
   Vector3 shear = Vector3::Zero();
   double area = 0.0, gap = 0.0, slip = 0.0;
-  for (std::size_t k = 0; k < record->points.size(); ++k) {
-    const ContactPoint& point = record->points[k];
-    const PointResponse& response = record->responses[k];
-    result.normal_force += response.force[0];
-    shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
-    area += point.area;
-    gap += point.area * record->gaps[k];
-    if (response.state != ContactState::open) result.area += point.area;
-    slip += point.area * slip_of(simulation, *record, k).norm();
+  bool total = true;
+  for (const PairRecord& record : simulation.contacts()) {
+    if (!is_of_pair(record)) continue;
+    // Forces on the parts of one block of both.
+    const double side = !measure.parts || (*measure.parts)[at(record.a)] == low ? 1.0 : -1.0;
+    for (std::size_t k = 0; k < record.points.size(); ++k) {
+      const ContactPoint& point = record.points[k];
+      const PointResponse& response = record.responses[k];
+      result.normal_force += response.force[0];
+      shear += side * (response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2);
+      area += point.area;
+      gap += point.area * record.gaps[k];
+      if (response.state != ContactState::open) result.area += point.area;
+      slip += point.area * slip_of(simulation, record, k).norm();
+    }
+    for (const int block : {record.a, record.b})
+      total = total && simulation.blocks()[at(block)].incremental() == nullptr;
   }
   result.shear_force = shear.norm();
   if (!(area > 0.0)) return result;
   result.opening = gap / area;
-  const auto total = [&](int k) { return simulation.blocks()[at(k)].incremental() == nullptr; };
-  if (total(record->a) && total(record->b)) result.slip = slip / area;
+  if (total) result.slip = slip / area;
   return result;
 }
 

@@ -14,12 +14,13 @@ namespace ashlar {
 
 struct Measure {
   enum class Kind {
-    point,  ///< a material point
-    block,  ///< a block: its centroid and its rotation
-    pair,   ///< the contacts of two blocks
-    bolt,   ///< a bolt or prop
-    drift,  ///< two levels of some blocks
-    crack,  ///< the joints of some blocks
+    point,     ///< a material point
+    block,     ///< a block: its centroid and its rotation
+    pair,      ///< the contacts of two blocks
+    bolt,      ///< a bolt or prop
+    drift,     ///< two levels of some blocks
+    crack,     ///< the joints of some blocks
+    fracture,  ///< cracks that appear in blocks: not a [[measure]]
   };
   std::string name;
   Kind kind = Kind::point;
@@ -29,11 +30,14 @@ struct Measure {
   std::string bolt = {};                             ///< for a bolt: its name
   std::shared_ptr<const DriftLevels> levels = {};    ///< for a drift, otherwise null
   std::shared_ptr<const JointPolygons> joints = {};  ///< for cracks, otherwise null
-  Vector3 origin = Vector3::Zero();                  ///< m, Scene::origin, of measured places
-  Vector3 up = Vector3::UnitZ();                     ///< unit vector against gravity
+  /// Of a scene with [[crack]], by block: number of the block of the scene of which it is a part; otherwise null
+  std::shared_ptr<const std::vector<int>> parts = {};
+  Vector3 origin = Vector3::Zero();  ///< m, Scene::origin, of measured places
+  Vector3 up = Vector3::UnitZ();     ///< unit vector against gravity
 };
 
-/// Measures of a scene, in its order. @param blocks of the scene
+/// Measures of a scene, in its order, and of one with [[crack]] the energy of the cracks. A point of a block that has cracked
+/// is that of the part at the point, the block its first part. @param blocks of the simulation
 [[nodiscard]] std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks);
 
 /// Results of other processes that measures are evaluated from: states of their blocks, and contacts of measured pairs.

@@ -49,6 +49,8 @@ std::vector<double> values_of(const Simulation& simulation, const Measure& measu
       const CrackWidths widths = measured_cracks(simulation, *measure.joints);
       return {widths.largest_opening, widths.largest_slip};
     }
+    case Measure::Kind::fracture:
+      return {};
   }
   return {};
 }
@@ -68,6 +70,7 @@ std::vector<Goal> goals_of(const Simulation& simulation, const std::vector<Measu
   const double length = as_good_as_zero * largest_displacement(simulation);
   const double force = as_good_as_zero * sum_of_forces(simulation);
   for (const Measure& measure : measures) {
+    if (measure.kind == Measure::Kind::fracture) continue;
     const bool is_force = measure.kind == Measure::Kind::pair || measure.kind == Measure::Kind::bolt;
     Goal goal{measure.name, values_of(simulation, measure), is_force ? force : length,
               rates_of(simulation, measure)};

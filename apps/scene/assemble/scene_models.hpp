@@ -26,14 +26,14 @@ class SceneModels {
   /// @throws as BlockModel does
   [[nodiscard]] BlockModel model(std::size_t block, BlockPartsLibrary& library) const;
 
+  /// Its definition. @param block index in scene.block
+  [[nodiscard]] BlockDefinition definition(std::size_t block) const;
   [[nodiscard]] std::size_t count() const { return loaded_.scene.block.size(); }
   [[nodiscard]] const ExpandedScene& scene() const { return loaded_.scene; }
   /// Does not need the scene any more.
   [[nodiscard]] const std::shared_ptr<const WaterPressure>& water() const { return water_; }
 
  private:
-  [[nodiscard]] BlockDefinition definition(std::size_t block) const;
-
   const LoadedScene& loaded_;
   double load_factor_;
   std::vector<bool> multiplied_;  ///< (#blocks) loads have the factor

@@ -14,6 +14,7 @@ void check_for_ranks(const Scene& scene, Diagnostics& diagnostics) {
           fmt::format("{} on several ranks, only one is allowed so far: run it without mpiexec", what));
   };
   refuse(scene.analysis.accuracy.has_value(), "analysis.accuracy", "a choice for an accuracy");
+  refuse(!scene.crack.empty(), "crack.0", "cracks that appear");
 }
 
 }  // namespace ashlar

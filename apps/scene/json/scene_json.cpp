@@ -67,6 +67,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
   if (scene.initial_stress.given())
     json["initial_stress"] = keys::initial_stress_keys().json(scene.initial_stress);
   add_list(json, "boundary", keys::boundary_keys(), scene.boundary);
+  add_list(json, "crack", keys::crack_keys(), scene.crack);
   json["output"] = keys::output_keys().json(scene.output);
   add_list(json, "stage", keys::stage_keys(), scene.stage);
   return json;

@@ -165,24 +165,9 @@ const Keys<Cut>& voronoi_keys() {
   return voronoi_table;
 }
 
-/// Both energies are needed, or one number for both.
-const Keys<FractureEnergy> bond_energy_table(
-    "", {number("tension", &FractureEnergy::tension, range::positive, "J/m^2",
-                "as in `[contact]`; `fracture_energy = 50` is 50 for both. Without `fracture_energy` "
-                "strength is lost at once")
-             .required_always(),
-         number("shear", &FractureEnergy::shear, range::positive, "J/m^2", "").required_always()});
-
 bool read_energy_of_bond(TomlTableReader& table, const std::string& key, Bond& bond) {
   FractureEnergy energy;
-  if (table.table_at(key) != nullptr) {
-    const bool good = bond_energy_table.read_table(table, key.c_str(), energy);
-    bond.fracture_energy = energy;
-    return good;
-  }
-  constexpr NumberRange words = {0.0, range::no_limit, false, false, "a number > 0 or { tension, shear }"};
-  if (!table.read_number(key, energy.tension, words)) return false;
-  energy.shear = energy.tension;
+  if (!read_both_energies(table, key, energy)) return false;
   bond.fracture_energy = energy;
   return true;
 }
@@ -190,13 +175,14 @@ bool read_energy_of_bond(TomlTableReader& table, const std::string& key, Bond& b
 const Own<Bond> energy_of_bond = {
     "a number > 0 or { tension, shear }",
     [] {
-      return schema_of_any({bond_energy_table.table().schema(), schema_of_number(range::positive, "number")});
+      return schema_of_any(
+          {both_energies_keys().table().schema(), schema_of_number(range::positive, "number")});
     },
     read_energy_of_bond,
     [](const Bond& bond) {
       return bond.fracture_energy ? fracture_energy_keys().json(*bond.fracture_energy) : Json();
     },
-    []() -> const TableKeys& { return bond_energy_table.table(); }};
+    []() -> const TableKeys& { return both_energies_keys().table(); }};
 
 const Keys<Bond> bond_table(
     "", {number("tensile_strength", &Bond::tensile_strength, range::positive, "Pa",

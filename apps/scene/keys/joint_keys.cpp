@@ -266,7 +266,26 @@ const Keys<Joint> joint_table(
     "Properties of the contacts between some blocks, in place of those of [contact]",
     joined(joined(keys_of_blocks(), keys_of_law()), keys_of_tie()));
 
+const Keys<Energy> both_energies_table(
+    "", {number("tension", &Energy::tension, range::positive, "J/m^2",
+                "as in `[contact]`; `fracture_energy = 50` is 50 for both. Where it may be "
+                "left out, strength is lost at once without it")
+             .required_always(),
+         number("shear", &Energy::shear, range::positive, "J/m^2", "").required_always()});
+
 }  // namespace
+
+const Keys<FractureEnergy>& both_energies_keys() {
+  return both_energies_table;
+}
+
+bool read_both_energies(TomlTableReader& table, const std::string& key, FractureEnergy& energy) {
+  if (table.table_at(key) != nullptr) return both_energies_table.read_table(table, key.c_str(), energy);
+  constexpr NumberRange words = {0.0, range::no_limit, false, false, "a number > 0 or { tension, shear }"};
+  if (!table.read_number(key, energy.tension, words)) return false;
+  energy.shear = energy.tension;
+  return true;
+}
 
 const Keys<SceneContact>& contact_keys() {
   return contact_table;

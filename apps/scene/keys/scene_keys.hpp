@@ -27,7 +27,12 @@ namespace ashlar::keys {
 [[nodiscard]] const Keys<SceneContact>& contact_keys();
 [[nodiscard]] const Keys<SceneJoint>& joint_keys();
 [[nodiscard]] const Keys<FractureEnergy>& fracture_energy_keys();
+/// Both energies are needed.
+[[nodiscard]] const Keys<FractureEnergy>& both_energies_keys();
+/// Reads { tension, shear }, or a number for both.
+[[nodiscard]] bool read_both_energies(TomlTableReader& table, const std::string& key, FractureEnergy& energy);
 [[nodiscard]] const Keys<SceneCut>& cut_keys();
+[[nodiscard]] const Keys<SceneCracking>& crack_keys();
 [[nodiscard]] const Keys<SceneStage>& stage_keys();
 
 /// The keys of a scene outside of tables.

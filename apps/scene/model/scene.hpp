@@ -17,6 +17,7 @@
 #include "apps/scene/model/scene_bolt.hpp"
 #include "apps/scene/model/scene_boundary.hpp"
 #include "apps/scene/model/scene_contact.hpp"
+#include "apps/scene/model/scene_cracking.hpp"
 #include "apps/scene/model/scene_initial_stress.hpp"
 #include "apps/scene/model/scene_measure.hpp"
 #include "apps/scene/model/scene_moving_load.hpp"
@@ -153,6 +154,7 @@ struct Scene {
   std::vector<SceneWater> water;        ///< in file order
   SceneInitialStress initial_stress;
   std::vector<SceneBoundary> boundary;  ///< in file order
+  std::vector<SceneCracking> crack;     ///< in file order
   SceneOutput output;
   /// In file order; empty: a single analysis. Otherwise `analysis` is that of the first one.
   std::vector<SceneStage> stage;
