@@ -107,6 +107,7 @@ constexpr std::pair<const char*, const char*> left_out_cases[] = {
     {"bonded-bar", "rounding errors of a placed bond are near its opening at the strength, 1e-10 m"},
     {"bonded-beam", "points of Voronoi cells are drawn in the axes of the scene"},
     {"bonded-stages", "its scene has Voronoi cells too"},
+    {"rocking-frame", "takes 3 s"},
     {"bonded-strength", "planes of its cut lie in the ends of the bar, beside which rounding leaves slivers"},
     {"self-weight-column", "takes 2 s"},
     {"limit-toppling", "takes 4 s"},
