@@ -1,4 +1,4 @@
-// Plots of studies, sweeps, spectra and block sizes (drawn by plot_script.hpp). The legend of a study shows the slope of
+// Plots of studies, sweeps, fragility, spectra and block sizes (drawn by plot_script.hpp). The legend of a study shows the slope of
 // the last points of every series, the result of a convergence study.
 #pragma once
 
@@ -11,12 +11,13 @@ enum class PlotAxes { logarithmic, linear, logarithmic_x };
 
 /// Points of a series that are not finite, or not positive along a logarithmic axis, are not drawn.
 struct PlotSeries {
-  std::string name;
+  std::string name;  ///< empty: not in the legend
   std::vector<double> x;
   std::vector<double> y;
   bool dashed = false;
   bool marks = true;                ///< at points
   bool same_color_as_last = false;  ///< a companion of the series before it, e.g. its bound
+  bool line = true;                 ///< between points
 };
 
 struct Plot {

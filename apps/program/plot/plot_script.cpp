@@ -52,7 +52,7 @@ def draw():
     for series in plot["series"]:
         if color < 0 or not series["same_color_as_last"]:
             color += 1
-        style = {"color": COLORS[color % len(COLORS)], "linestyle": "--" if series["dashed"] else "-"}
+        style = {"color": COLORS[color % len(COLORS)], "linestyle": "--" if series["dashed"] else "-" if series["line"] else "none"}
         if series["marks"]:
             style.update(marker="o", markersize=5, markerfacecolor="white" if series["dashed"] else style["color"])
         axes.plot(series["x"], series["y"], label=plain(series["name"]), **style)
@@ -98,6 +98,7 @@ Json to_json(const PlotSeries& series, const Plot& plot) {
           {"y", std::move(y)},
           {"dashed", series.dashed},
           {"marks", series.marks},
+          {"line", series.line},
           {"same_color_as_last", series.same_color_as_last}};
 }
 

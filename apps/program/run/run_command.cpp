@@ -133,8 +133,9 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
   std::optional<BuiltSimulation> built =
       build_first_stage(stage_scene(scene, 0), threads, diagnostics, &preparation, ranks);
   if (!built) return prepared;
-  const Run& run = prepared.run.emplace(scene, std::move(*built),
-                                        RunManner{threads, false, began, ranks, options.all_errors});
+  const Run& run =
+      prepared.run.emplace(scene, std::move(*built),
+                           RunManner{threads, options.observer != nullptr, began, ranks, options.all_errors});
   if (options.explained_pair)
     prepared.explained = pair_by_names(*options.explained_pair, run.simulation(), diagnostics);
   prepared.resumes = options.resume && !holds_open_search(folder, run.whole());
@@ -175,6 +176,7 @@ std::optional<int> begin(Run& run, std::shared_ptr<const FolderClaim> claim, con
   const bool writes = claim != nullptr;
   run.record(std::move(claim), options.checkpoint, options.resume);
   if (writes) run.observe(std::move(progress));
+  if (options.observer) run.observe(options.observer);
   try {
     run.begin();
   } catch (const std::bad_alloc&) {

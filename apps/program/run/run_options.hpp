@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "apps/program/command_line.hpp"
 
 namespace ashlar {
+
+class RunObserver;  // run_observer.hpp
 
 struct RunOptions {
   std::filesystem::path scene;  ///< "-": standard input
@@ -26,6 +29,8 @@ struct RunOptions {
   bool view = false;   ///< write view.html at the end
   bool all_errors = false;                    ///< errors of the orders of all blocks in the summary
   std::optional<std::string> explained_pair;  ///< "a,b": blocks whose contacts are explained at the end
+  /// Attached last, with the rows of all steps in memory; null: none. If it ends the run, that is interrupted
+  std::shared_ptr<RunObserver> observer = {};
 };
 
 /// Declares `ashlar run`; it calls run_command (run_command.hpp).

@@ -177,4 +177,21 @@ SceneDocument parse_document(std::string_view text, const std::filesystem::path&
   return {std::move(tree), std::move(reader).files()};
 }
 
+std::optional<SceneDocument> read_document(const std::filesystem::path& file, const Place& place,
+                                           Diagnostics& diagnostics) {
+  std::string text;
+  try {
+    text = whole_file(file, most_input_bytes);
+    return parse_document(text, file, diagnostics);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position& at = error.source().begin;
+    diagnostics.error({file.string(), static_cast<int>(at.line), static_cast<int>(at.column)},
+                      malformed_toml(text, error));
+  } catch (const std::runtime_error& error) {
+    diagnostics.error(place, fmt::format("{} cannot be read ({}), a readable file is needed", file.string(),
+                                         fault_text(error)));
+  }
+  return std::nullopt;
+}
+
 }  // namespace ashlar

@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,5 +32,10 @@ inline constexpr std::size_t deepest_include = 32;
 /// @param file the document's name. @throws toml::parse_error of the document's own text
 [[nodiscard]] SceneDocument parse_document(std::string_view text, const std::filesystem::path& file,
                                            Diagnostics& diagnostics);
+
+/// The document of a file. Malformed TOML is reported at its place, a file that cannot be read at `place`.
+/// @return empty after such a fault
+[[nodiscard]] std::optional<SceneDocument> read_document(const std::filesystem::path& file,
+                                                         const Place& place, Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -16,6 +15,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "apps/program/result_names.hpp"
 #include "apps/results/text/json_path.hpp"
 
 namespace ashlar {
@@ -36,14 +36,6 @@ Part trimmed(Part part) {
   }
   while (!part.text.empty() && part.text.back() == ' ') part.text.remove_suffix(1);
   return part;
-}
-
-bool begins_name(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-
-bool continues_name(char c) {
-  return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.';
 }
 
 /// Evaluates expressions of one run.
@@ -108,32 +100,6 @@ class CaseEvaluation {
     }
   }
 
-  /// Length of what is not a result at the start of a text: a name, a number or one character.
-  static std::size_t plain_length(std::string_view text) {
-    std::size_t length = 1;
-    if (begins_name(text.front())) {
-      while (length < text.size() && continues_name(text[length])) ++length;
-      return length;
-    }
-    // With its exponent, so that its letter does not begin a name.
-    return std::isdigit(static_cast<unsigned char>(text.front())) != 0 ? number_length(text) : 1;
-  }
-
-  static std::size_t number_length(std::string_view text) {
-    const auto digits = [&](std::size_t k) {
-      while (k < text.size() && (std::isdigit(static_cast<unsigned char>(text[k])) != 0 || text[k] == '.'))
-        ++k;
-      return k;
-    };
-    std::size_t end = digits(0);
-    if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
-      std::size_t exponent = end + 1;
-      if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
-      if (digits(exponent) > exponent) end = digits(exponent);
-    }
-    return end;
-  }
-
   /// The result at the start of a text, and its length. @return null if none begins there
   [[nodiscard]] OfRow operand_at(Part part, std::size_t& length) const {
     const std::string_view text = part.text;
@@ -144,9 +110,8 @@ class CaseEvaluation {
       length = end + 1;
       return result(text.substr(1, end - 1), part.offset);
     }
-    if (!begins_name(text.front())) return nullptr;
-    length = 1;
-    while (length < text.size() && continues_name(text[length])) ++length;
+    length = name_length(text);
+    if (length == 0) return nullptr;
     const std::string_view name = text.substr(0, length);
     if (length < text.size() && text[length] == '(') {
       if (!is_function(name)) return nullptr;

@@ -9,34 +9,13 @@
 #include <utility>
 
 #include "apps/results/system/this_process.hpp"
-#include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/include.hpp"
-#include "apps/scene/toml/input_file.hpp"
 #include "apps/scene/toml/parameters.hpp"
 #include "apps/scene/toml/scene_overrides.hpp"
-#include "apps/scene/toml/toml_faults.hpp"
 #include "apps/scene/toml/toml_table_reader.hpp"
 
 namespace ashlar {
 namespace {
-
-/// The document of a file; empty, with a fault, if it cannot be parsed. @param place where the file is named
-std::optional<SceneDocument> document_of(const std::filesystem::path& file, const Place& place,
-                                         Diagnostics& diagnostics) {
-  std::string text;
-  try {
-    text = whole_file(file, most_input_bytes);
-    return parse_document(text, file, diagnostics);
-  } catch (const toml::parse_error& error) {
-    const toml::source_position& at = error.source().begin;
-    diagnostics.error({file.string(), static_cast<int>(at.line), static_cast<int>(at.column)},
-                      malformed_toml(text, error));
-  } catch (const std::runtime_error& error) {
-    diagnostics.error(place, fmt::format("{} cannot be read ({}), a readable file is needed", file.string(),
-                                         fault_text(error)));
-  }
-  return std::nullopt;
-}
 
 /// Entries of a table in the order of the file.
 std::vector<std::pair<const toml::key*, const toml::node*>> in_order(const toml::table& table) {
@@ -199,7 +178,7 @@ class CaseReader {
   /// Values and overrides of all variants.
   void add_variants(SceneCase& result, const std::vector<std::vector<Chosen>>& varied,
                     const toml::table* define) {
-    std::optional<SceneDocument> document = document_of(result.scene, result.place, reading_.diagnostics());
+    std::optional<SceneDocument> document = read_document(result.scene, result.place, reading_.diagnostics());
     if (!document) return;
     if (varied.empty())
       reading_.error(result.place,
@@ -250,7 +229,7 @@ class CaseReader {
 };
 
 std::vector<SceneCase> read_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
-  std::optional<SceneDocument> document = document_of(file, {file.string(), 1, 1}, diagnostics);
+  std::optional<SceneDocument> document = read_document(file, {file.string(), 1, 1}, diagnostics);
   if (!document) return {};
   ScenePlaces places;
   const Place start{file.string(), 1, 1};
