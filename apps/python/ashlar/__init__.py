@@ -26,13 +26,14 @@ except ModuleNotFoundError as _fault:
 from . import _core
 from . import _notebook
 from . import keys
+from ._fragility import Fragility, fragility
 from ._history import History
 from ._pictures import Page, page, picture
 from ._toml import to_toml as _to_toml
 
 __version__ = _core.version.split()[1] if len(_core.version.split()) > 1 else _core.version
-__all__ = ["Block", "Bolt", "History", "Page", "Scene", "SceneError", "Simulation", "blocks", "contacts", "integrate",
-           "keys", "page", "picture", "run", "schema"]
+__all__ = ["Block", "Bolt", "Fragility", "History", "Page", "Scene", "SceneError", "Simulation", "blocks", "contacts",
+           "fragility", "integrate", "keys", "page", "picture", "run", "schema"]
 
 
 Block = _core.Block
