@@ -17,6 +17,7 @@
 #include "apps/program/contacts/integrate_command.hpp"
 #include "apps/program/fragility/fragility_command.hpp"
 #include "apps/program/import/import_command.hpp"
+#include "apps/program/mcp/mcp_command.hpp"
 #include "apps/program/new/new_command.hpp"
 #include "apps/program/run/rank_agreement.hpp"
 #include "apps/program/run/run_options.hpp"
@@ -37,11 +38,12 @@ namespace ashlar {
 namespace {
 
 // In the order of --help.
-constexpr std::array<CommandDeclaration, 16> commands = {
+constexpr std::array<CommandDeclaration, 17> commands = {
     declare_new_command,       declare_import_command, declare_run_command,      declare_sweep_command,
     declare_fragility_command, declare_view_command,   declare_picture_command,  declare_movie_command,
     declare_check_command,     declare_blocks_command, declare_contacts_command, declare_integrate_command,
-    declare_verify_command,    declare_study_command,  declare_spectrum_command, declare_schema_command};
+    declare_verify_command,    declare_study_command,  declare_spectrum_command, declare_schema_command,
+    declare_mcp_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

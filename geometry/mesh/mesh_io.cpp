@@ -12,6 +12,7 @@
 #include "geometry/mesh/polygon_triangulation.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 #include "geometry/mesh/volume_mesh.hpp"
+#include "geometry/text/reading_folder.hpp"
 
 namespace ashlar {
 namespace {
@@ -38,6 +39,8 @@ const Format& format_of(const fs::path& path) {
 }  // namespace
 
 std::string read_mesh_bytes(const fs::path& path, const std::string& what) {
+  if (const std::string refusal = refusal_to_read(path); !refusal.empty())
+    throw MeshFileError(what + " is " + refusal, 0, 0);
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw MeshFileError(what + " does not exist", 0, 0);

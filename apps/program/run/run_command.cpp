@@ -112,6 +112,19 @@ void refuse_for_ranks(const RunOptions& options, Diagnostics& diagnostics) {
   if (options.all_errors) refuse("--all-errors", "errors of orders are not estimated");
 }
 
+void refuse_above_limits(const LoadedScene& loaded, const std::string& file, const SceneLimits& limits,
+                         Diagnostics& diagnostics) {
+  constexpr double gigabyte = 1e9;
+  if (const std::size_t blocks = loaded.scene.block.size(); blocks > limits.blocks)
+    diagnostics.error({file, 1, 1}, fmt::format("too many blocks ({}), at most {} are allowed here", blocks,
+                                                limits.blocks));
+  if (loaded.cost.memory > limits.memory)
+    diagnostics.error({file, 1, 1},
+                      fmt::format("the run would need too much memory ({:.2g} GB), at most {:.2g} GB are "
+                                  "allowed here: fewer blocks, lower orders or fewer sub-faces need less",
+                                  loaded.cost.memory / gigabyte, limits.memory / gigabyte));
+}
+
 /// Reads, checks and builds. Faults go to the diagnostics. Collective: on several ranks none builds what another could not
 /// read.
 PreparedRun prepare(const RunOptions& options, const std::filesystem::path& folder, double began,
@@ -130,6 +143,8 @@ PreparedRun prepare(const RunOptions& options, const std::filesystem::path& fold
   if (!loaded) return prepared;
   const auto scene = std::make_shared<const LoadedScene>(std::move(*loaded));
   prepared.cost = scene->cost;
+  if (options.limits) refuse_above_limits(*scene, options.scene.string(), *options.limits, diagnostics);
+  if (!diagnostics.good()) return prepared;
   std::optional<BuiltSimulation> built =
       build_first_stage(stage_scene(scene, 0), threads, diagnostics, &preparation, ranks);
   if (!built) return prepared;

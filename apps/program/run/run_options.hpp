@@ -1,6 +1,7 @@
 // Options of `ashlar run` on its command line.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +13,12 @@
 namespace ashlar {
 
 class RunObserver;  // run_observer.hpp
+
+/// Limits of a scene that somebody else has written.
+struct SceneLimits {
+  std::uint64_t blocks = 5000;
+  double memory = 4e9;  ///< bytes that a run is estimated to need
+};
 
 struct RunOptions {
   std::filesystem::path scene;  ///< "-": standard input
@@ -31,6 +38,7 @@ struct RunOptions {
   std::optional<std::string> explained_pair;  ///< "a,b": blocks whose contacts are explained at the end
   /// Attached last, with the rows of all steps in memory; null: none. If it ends the run, that is interrupted
   std::shared_ptr<RunObserver> observer = {};
+  std::optional<SceneLimits> limits = {};  ///< a scene above them is an error
 };
 
 /// Declares `ashlar run`; it calls run_command (run_command.hpp).

@@ -1,5 +1,6 @@
 #include "apps/results/system/process_copy.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -41,16 +42,28 @@ void end_with(pid_t parent, int signal) {
   if (::getppid() != parent) ::_exit(1);  // it had already
 }
 
+/// For a copy. @return false if one cannot be opened
+bool replace_streams(const CopyStreams& streams) {
+  constexpr int mode = O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW;
+  const std::array opened = {::open("/dev/null", O_RDONLY), ::open(streams.out.c_str(), mode, 0600),
+                             ::open(streams.err.c_str(), mode, 0600)};
+  for (std::size_t k = 0; k < opened.size(); ++k)
+    if (opened[k] < 0 || ::dup2(opened[k], static_cast<int>(k)) < 0) return false;
+  return true;
+}
+
 }  // namespace
 
-ProcessCopy::ProcessCopy(const std::function<int()>& run) {
+ProcessCopy::ProcessCopy(const std::function<int()>& run, const std::optional<CopyStreams>& streams,
+                         CopyEnd end) {
   const pid_t parent = ::getpid();
   process_ = ::fork();
   if (process_ < 0)
     throw std::system_error(errno, std::generic_category(), "a process for a run cannot be made");
   if (process_ > 0) return;
   (void)::setpgid(0, 0);
-  end_with(parent, SIGTERM);
+  end_with(parent, end == CopyEnd::asked ? SIGTERM : SIGKILL);
+  if (streams && !replace_streams(*streams)) ::_exit(1);
   ::_exit([&]() noexcept { return run(); }());
 }
 
@@ -63,6 +76,10 @@ std::optional<int> ProcessCopy::ended() const {
 
 void ProcessCopy::ask_to_end() const {
   (void)::kill(static_cast<pid_t>(process_), SIGTERM);
+}
+
+void ProcessCopy::end_at_once() const {
+  (void)::kill(static_cast<pid_t>(process_), SIGKILL);
 }
 
 std::optional<std::string> told_by_copy(const std::function<std::optional<std::string>()>& tell) {

@@ -3,23 +3,38 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 
 namespace ashlar {
 
+/// Files in place of the standard streams of a copy, created again. It has no input.
+struct CopyStreams {
+  std::filesystem::path out, err;
+};
+
+/// What happens to a copy when this process has ended.
+enum class CopyEnd {
+  asked,    ///< SIGTERM, which a run takes as a request to save its state
+  at_once,  ///< SIGKILL
+};
+
 class ProcessCopy {
  public:
   /// Starts a copy that calls the function and ends with its result as exit status, 0 to 255, without destructors of
-  /// this process. Signals of the terminal do not reach it. It is asked to end when this process has ended.
-  /// @throws std::system_error if the system has no room for it
-  explicit ProcessCopy(const std::function<int()>& run);
+  /// this process. Signals of the terminal do not reach it. @param streams empty: those of this process
+  /// @throws std::system_error if the system has no room for it. A copy that cannot open its streams has exit status 1
+  explicit ProcessCopy(const std::function<int()>& run, const std::optional<CopyStreams>& streams = {},
+                       CopyEnd end = CopyEnd::asked);
 
   /// Empty while it runs; afterwards, once, its exit status, or -1 if it was ended by a signal.
   [[nodiscard]] std::optional<int> ended() const;
   /// Asks it to end (SIGTERM).
   void ask_to_end() const;
+  /// Ends it (SIGKILL).
+  void end_at_once() const;
 
  private:
   std::int64_t process_ = -1;

@@ -24,6 +24,7 @@
 #include "apps/scene/toml/scene_overrides.hpp"
 #include "apps/scene/toml/toml_faults.hpp"
 #include "apps/scene/toml/toml_table_reader.hpp"
+#include "geometry/text/reading_folder.hpp"
 
 namespace ashlar {
 namespace {
@@ -154,6 +155,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
 
 /// Text of a scene file, which may be a pipe. @throws std::runtime_error with the reason alone
 static std::string scene_text(const std::filesystem::path& file) {
+  require_readable(file);
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) throw std::runtime_error("is a folder");
   // Some devices are unbounded.

@@ -13,6 +13,7 @@
 #include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/input_file.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
+#include "geometry/text/reading_folder.hpp"
 
 namespace ashlar {
 namespace {
@@ -117,6 +118,7 @@ std::optional<std::vector<MeasuredJoint>> read_disc_table(const std::filesystem:
                                                           const Place& place, Diagnostics& diagnostics) {
   std::istringstream content;
   try {
+    require_readable(file);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) throw std::runtime_error("there is no such file");
     content.str(whole_file(file, most_input_bytes));

@@ -17,6 +17,7 @@
 #include "apps/scene/records/sampled_record.hpp"
 #include "apps/scene/records/text_fields.hpp"
 #include "apps/scene/toml/input_file.hpp"
+#include "geometry/text/reading_folder.hpp"
 
 namespace ashlar {
 namespace {
@@ -204,15 +205,13 @@ std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& r
                                                             const std::filesystem::path& folder,
                                                             const Place& place, Diagnostics& diagnostics) {
   const std::filesystem::path path = folder / record.file;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    const bool there = std::filesystem::exists(path, ignored);
-    diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable record is needed",
-                                         path.string(), there ? "is no file" : "there is no such file"));
-    return std::nullopt;
-  }
   std::istringstream content;
   try {
+    require_readable(path);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+      throw std::runtime_error(std::filesystem::exists(path, ignored) ? "is no file"
+                                                                      : "there is no such file");
     content.str(whole_file(path, most_input_bytes));
   } catch (const std::runtime_error& reason) {
     diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable record is needed",

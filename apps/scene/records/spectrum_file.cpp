@@ -9,6 +9,7 @@
 #include "apps/scene/model/scene_record.hpp"
 #include "apps/scene/records/record_file.hpp"
 #include "apps/scene/records/text_fields.hpp"
+#include "geometry/text/reading_folder.hpp"
 
 namespace ashlar {
 namespace {
@@ -19,6 +20,7 @@ SceneRecord columns_of(const std::filesystem::path& file, const std::filesystem:
   record.file = file;
   record.time = "1";
   record.values = {"2"};
+  if (!refusal_to_read(folder / file).empty()) return record;  // refused again where the record is read
   std::ifstream stream(folder / file, std::ios::binary);
   for (std::string line; std::getline(stream, line);) {
     std::string_view text = trimmed_text(line);

@@ -5,9 +5,12 @@
 #include <istream>
 #include <system_error>
 
+#include "geometry/text/reading_folder.hpp"
+
 namespace ashlar {
 
 void require_regular_file(const std::filesystem::path& path) {
+  require_readable(path);
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))

@@ -4,8 +4,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <iostream>
 #include <stdexcept>
 #include <thread>
+
+#include "support/temporary_folder.hpp"
 
 namespace ashlar::process_copy_test {
 namespace {
@@ -33,6 +36,33 @@ TEST(ProcessCopy, EndsWhenAsked) {
   });
   EXPECT_EQ(copy.ended(), std::nullopt);
   copy.ask_to_end();
+  EXPECT_EQ(status_of(copy), -1);
+}
+
+TEST(ProcessCopy, PrintsToItsFilesAndHasNoInput) {
+  const TemporaryFolder folder;
+  const ProcessCopy copy(
+      [] {
+        std::cout << "results" << std::flush;
+        std::cerr << "faults";
+        return std::cin.get() == std::istream::traits_type::eof() ? 5 : 6;
+      },
+      CopyStreams{folder / "out", folder / "err"});
+  EXPECT_EQ(status_of(copy), 5);
+  EXPECT_EQ(read_text(folder / "out"), "results");
+  EXPECT_EQ(read_text(folder / "err"), "faults");
+  const ProcessCopy without([] { return 0; }, CopyStreams{folder / "none" / "out", folder / "err"});
+  EXPECT_EQ(status_of(without), 1);
+}
+
+TEST(ProcessCopy, IsEndedAtOnce) {
+  const ProcessCopy copy([] {
+    std::signal(SIGTERM, SIG_IGN);
+    std::this_thread::sleep_for(std::chrono::hours(1));
+    return 0;
+  });
+  copy.ask_to_end();
+  copy.end_at_once();
   EXPECT_EQ(status_of(copy), -1);
 }
 
