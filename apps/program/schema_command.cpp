@@ -41,9 +41,13 @@ void declare_schema_command(CLI::App& program, CommandContext& context) {
   // Shared with the callback that reads it.
   const auto results = std::make_shared<bool>(false), keys = std::make_shared<bool>(false);
   command->add_flag("--results", *results, "The columns of results instead, with units and meanings");
-  command->add_flag("--keys", *keys, "The keys of scenes as lists instead, with values, units, defaults and meanings");
+  command->add_flag("--keys", *keys,
+                    "The keys of scenes as lists instead, with values, units, defaults and meanings");
   command->callback([results, keys, &context] {
-    context.out << json_text(*results ? schema_of_results() : *keys ? scene_reference() : scene_schema(), 2)
+    context.out << json_text(*results ? schema_of_results()
+                             : *keys  ? scene_reference()
+                                      : scene_schema(),
+                             2)
                 << '\n';
     context.status = exit_status::done;
   });

@@ -26,12 +26,19 @@ std::pair<double, double> extent_of(const Polyhedron& solid, const Plane& plane)
   return {low, high};
 }
 
+/// Resolution of coordinates relative to the largest one: 64 units in the last place. Less keeps slivers of rounding, more
+/// joins corners.
+constexpr double rounding_share = 0x1p-46;
+/// Of the faces that a crack makes in the cutter.
+constexpr int mark_of_crack = 0;
+/// Parts are named a to z, then aa, ab, ...
+constexpr std::size_t letters = 26;
+
 /// Resolution of the coordinates of a solid, m: corners of cuts are rounded once.
 double resolution_of(const Polyhedron& solid) {
   double largest = 0.0;
   for (const Vector3& point : solid.mesh().points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
-  constexpr double share = 0x1p-46;  // 64 units in the last place
-  return share * largest;
+  return rounding_share * largest;
 }
 
 double area_in(const Polyhedron& solid, const Plane& plane) {
@@ -78,9 +85,8 @@ std::optional<Plane> plane_with_room(const Polyhedron& solid, const Plane& plane
 }
 
 std::optional<DividedSolid> divided_solid(const Polyhedron& solid, const Plane& plane, double least_size) {
-  constexpr int mark = 0;
   CutSolid cut(solid);
-  cut.cut({plane.normal, plane.point}, mark, [](int) { return true; });
+  cut.cut({plane.normal, plane.point}, mark_of_crack, [](int) { return true; });
   struct Piece {
     double middle;  ///< m, above the plane
     std::shared_ptr<const Polyhedron> solid;
@@ -90,7 +96,7 @@ std::optional<DividedSolid> divided_solid(const Polyhedron& solid, const Plane& 
   const double resolution = resolution_of(solid);
   for (const int piece : cut.pieces()) {
     for (const PieceFace& face : cut.faces(piece))
-      if (face.mark == mark && face.below) result.area += cut.area(face);
+      if (face.mark == mark_of_crack && face.below) result.area += cut.area(face);
     try {
       pieces.push_back({0.0, std::make_shared<const Polyhedron>(cut.mesh(piece, resolution), resolution)});
     } catch (const MeshError&) {
@@ -107,7 +113,6 @@ std::optional<DividedSolid> divided_solid(const Polyhedron& solid, const Plane& 
 }
 
 std::string name_of_part(const std::string& block, int crack, std::size_t part) {
-  constexpr std::size_t letters = 26;
   std::string word;
   for (std::size_t rest = part + 1; rest > 0; rest = (rest - 1) / letters)
     word.insert(word.begin(), static_cast<char>('a' + (rest - 1) % letters));

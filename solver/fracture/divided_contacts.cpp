@@ -12,6 +12,10 @@
 namespace ashlar {
 namespace {
 
+/// Sine of the largest angle between a part's face and the face of the whole that it lies in: rounding is far below, edges
+/// between faces are far above.
+constexpr double same_plane = 1e-6;
+
 using Entry = ContactMemory::Entry;
 
 /// A contact point of a part.
@@ -42,7 +46,6 @@ class PartFinder {
  private:
   /// The face of a part in a face of the whole, of several the one with the nearest corner.
   [[nodiscard]] int face_of(std::size_t part, const Vector3& place, int face) const {
-    constexpr double same_plane = 1e-6;  // sine of the angle
     const Polyhedron& solid = finders_[part].solid();
     const Vector3& normal = whole_.faces().at(at(face)).normal;
     int found = 0;

@@ -12,6 +12,9 @@
 namespace ashlar {
 namespace {
 
+/// Distance outside of a face that counts as inside, relative to the rounding errors that a solid may have.
+constexpr double on_a_face = 1e-12;
+
 constexpr double most_probes = 4000.0;   // about: inside and on the faces together
 constexpr int points_per_radius = 3;     // of the rule for means, along each axis
 constexpr double same_stress = 1e-3;     // share of the largest
@@ -29,7 +32,7 @@ double area_of(const Polyhedron& solid) {
 /// Is a point in a solid?
 class Inside {
  public:
-  explicit Inside(const Polyhedron& solid) : solid_(solid), tolerance_(1e-12 * allowed_offset(solid)) {}
+  explicit Inside(const Polyhedron& solid) : solid_(solid), tolerance_(on_a_face * allowed_offset(solid)) {}
 
   bool operator()(const Vector3& point) const {
     if (!solid_.convex()) return is_inside(solid_.mesh(), point);

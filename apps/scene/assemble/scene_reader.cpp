@@ -104,7 +104,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
   scene.water = keys::water_keys().read_all(top, "water");
   keys::initial_stress_keys().read_table(top, "initial_stress", scene.initial_stress);
   scene.boundary = keys::boundary_keys().read_all(top, "boundary");
-  scene.crack = keys::crack_keys().read_all(top, "crack");
+  scene.crack = keys::cracking_keys().read_all(top, "crack");
   keys::output_keys().read_table(top, "output", scene.output);
   if (!scene.output.every && !scene.output.interval) scene.output.every = default_frame_distance;
   if (top.given("include"))

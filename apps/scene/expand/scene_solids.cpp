@@ -9,8 +9,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "apps/scene/json/value_json.hpp"
 #include "apps/scene/json/scene_json.hpp"
+#include "apps/scene/json/value_json.hpp"
 #include "apps/scene/meshes/mesh_import.hpp"
 #include "apps/scene/read/exact_turn.hpp"
 #include "geometry/exact/coordinate_limit.hpp"

@@ -23,8 +23,7 @@ std::vector<SceneAssign> assignments_to_pieces(const Scene& scene) {
     if (pieces[index].empty()) continue;
     list.push_back(scene.assign[index]);
     list.back().blocks.clear();
-    for (const std::size_t k : pieces[index])
-      list.back().blocks.push_back(pattern_of(scene.block[k].name));
+    for (const std::size_t k : pieces[index]) list.back().blocks.push_back(pattern_of(scene.block[k].name));
   }
   return list;
 }
@@ -67,7 +66,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
   if (scene.initial_stress.given())
     json["initial_stress"] = keys::initial_stress_keys().json(scene.initial_stress);
   add_list(json, "boundary", keys::boundary_keys(), scene.boundary);
-  add_list(json, "crack", keys::crack_keys(), scene.crack);
+  add_list(json, "crack", keys::cracking_keys(), scene.crack);
   json["output"] = keys::output_keys().json(scene.output);
   add_list(json, "stage", keys::stage_keys(), scene.stage);
   return json;

@@ -32,7 +32,7 @@ const std::vector<SceneTable>& all_tables() {
                                                  {"water", water_keys().table(), true},
                                                  {"initial_stress", initial_stress_keys().table(), false},
                                                  {"boundary", boundary_keys().table(), true},
-                                                 {"crack", crack_keys().table(), true},
+                                                 {"crack", cracking_keys().table(), true},
                                                  {"bolt", bolt_keys().table(), true},
                                                  {"prop", prop_keys().table(), true},
                                                  {"measure", measure_keys().table(), true},

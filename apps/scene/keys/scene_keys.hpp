@@ -32,7 +32,7 @@ namespace ashlar::keys {
 /// Reads { tension, shear }, or a number for both.
 [[nodiscard]] bool read_both_energies(TomlTableReader& table, const std::string& key, FractureEnergy& energy);
 [[nodiscard]] const Keys<SceneCut>& cut_keys();
-[[nodiscard]] const Keys<SceneCracking>& crack_keys();
+[[nodiscard]] const Keys<SceneCracking>& cracking_keys();
 [[nodiscard]] const Keys<SceneStage>& stage_keys();
 
 /// The keys of a scene outside of tables.

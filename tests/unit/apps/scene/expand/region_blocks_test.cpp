@@ -146,8 +146,9 @@ TEST(RegionBlocks, FaultsHaveTheirPlace) {
           "one is needed"));
   EXPECT_THAT(
       load("[[assign]]\ninside = { }\norder = 2\n").faults,
-      ElementsAre("s.toml:15:1: error: assign.inside has no shape (none given), exactly one of box, mesh, hull, "
-                  "sphere, halfspace is needed"));
+      ElementsAre(
+          "s.toml:15:1: error: assign.inside has no shape (none given), exactly one of box, mesh, hull, "
+          "sphere, halfspace is needed"));
   EXPECT_THAT(
       load("[[assign]]\ninside = { halfspace = { point = [0, 0, 0], normal = [0, 0, 0] } }\norder = 2\n")
           .faults,

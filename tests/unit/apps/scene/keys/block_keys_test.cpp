@@ -39,9 +39,9 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Shape, BlockKeysFault,
     ::testing::Values(
-        FaultCase{
-            16, "",
-            "s.toml:13:1: error: block has no shape (none given), exactly one of box, mesh, hull, sphere is needed"},
+        FaultCase{16, "",
+                  "s.toml:13:1: error: block has no shape (none given), exactly one of box, mesh, hull, "
+                  "sphere is needed"},
         FaultCase{
             16, "box = { min = [0, 0, 0], max = [1, 1, 1.7e308] }",
             "s.toml:16:32: error: max has a coordinate that is too large (1.7e+308 m), -1e150 to 1e150"},
@@ -127,15 +127,16 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Load, BlockKeysFault,
-    ::testing::Values(
-        FaultCase{25, "", "s.toml:23:1: error: block.load has no size (none given)"},
-        FaultCase{25, "traction = [0, 0, 1]\nforce = [0, 0, 1]", "s.toml:23:1: error: block.load has 2 sizes"},
-        FaultCase{24, "point = [4, 0, 0]", "s.toml:25:1: error: traction at a point"},
-        FaultCase{25, "force = [0, 0]", "s.toml:25:9: error: force has the wrong length (2 entries)"},
-        FaultCase{25, "force = [0, 0, 1]\nhistory = [[0, 1], [2, 1], [1, 0]]",
-                  "s.toml:26:28: error: time in history does not increase (1 after 2)"},
-        FaultCase{25, "force = [0, 0, 1]\nhistory = []",
-                  "s.toml:26:11: error: history has too few entries (0)"}));
+    ::testing::Values(FaultCase{25, "", "s.toml:23:1: error: block.load has no size (none given)"},
+                      FaultCase{25, "traction = [0, 0, 1]\nforce = [0, 0, 1]",
+                                "s.toml:23:1: error: block.load has 2 sizes"},
+                      FaultCase{24, "point = [4, 0, 0]", "s.toml:25:1: error: traction at a point"},
+                      FaultCase{25, "force = [0, 0]",
+                                "s.toml:25:9: error: force has the wrong length (2 entries)"},
+                      FaultCase{25, "force = [0, 0, 1]\nhistory = [[0, 1], [2, 1], [1, 0]]",
+                                "s.toml:26:28: error: time in history does not increase (1 after 2)"},
+                      FaultCase{25, "force = [0, 0, 1]\nhistory = []",
+                                "s.toml:26:11: error: history has too few entries (0)"}));
 
 TEST(BlockKeys, FixedBlockTakesNoSupportAndNoLoad) {
   EXPECT_THAT(reading_faults(sample_with(19, "fixed = true")),
