@@ -2,6 +2,7 @@
 
 #include "solver/linear/conjugate_gradients.hpp"
 #include "solver/linear/sparse_cholesky.hpp"
+#include "solver/linear/tree_factor.hpp"
 
 namespace ashlar {
 
@@ -24,6 +25,7 @@ Eigen::VectorXd times(const SymmetricMatrix& matrix, const Eigen::VectorXd& x) {
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearMethod method, const std::vector<int>& sizes) {
   if (method == LinearMethod::conjugate_gradients) return std::make_unique<ConjugateGradients>(sizes);
+  if (static_cast<int>(sizes.size()) >= blocks_of_tree_factor) return std::make_unique<TreeFactor>(sizes);
   return std::make_unique<SparseCholesky>();
 }
 

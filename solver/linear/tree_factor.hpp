@@ -21,8 +21,8 @@ struct FactorUse {
   int threads = 1;  ///< >= 1
 };
 
-/// Blocks from which on an island has a tree factor: fewer gain little, whatever their order.
-constexpr int blocks_of_tree_factor = 300;
+/// Blocks from which on an island has a tree factor (notes/tree_factor.md).
+constexpr int blocks_of_tree_factor = 600;
 
 /// Sets the use of a tree factor from the next factorisation on. No effect on other methods.
 void set_use(LinearSolver& solver, const FactorUse& use);

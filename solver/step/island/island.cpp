@@ -5,6 +5,7 @@
 
 #include "geometry/index.hpp"
 #include "geometry/union_find.hpp"
+#include "solver/linear/tree_factor.hpp"
 #include "solver/step/island/island_links.hpp"
 #include "solver/step/solve/open_close.hpp"
 
@@ -69,6 +70,7 @@ void IslandSolvers::restore(const std::vector<KeptFactor>& kept) {
     SymmetricMatrix matrix = entry.matrix.matrix();
     const bool fits = matrix.values.size() == factor.values.size();
     matrix.values = factor.values;
+    set_use(*entry.factor, {FactorPrecision::in_single});  // as in the step that made it
     if (!fits || entry.factor->factorize(matrix) != FactorStatus::success)
       throw std::invalid_argument("a factor does not fit its island");
     entry.factor->drop_counts();

@@ -6,6 +6,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/linear/gmres.hpp"
+#include "solver/linear/tree_factor.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -78,7 +79,15 @@ void IslandTangent::assemble(bool positive) {
   assembled_ = true;
 }
 
+void IslandTangent::prepare_factor() const {
+  // Bodies have inertia in steps. Tangents of statics may be nearly singular.
+  const auto precision =
+      problem_.scheme().is_static() ? FactorPrecision::in_double : FactorPrecision::in_single;
+  set_use(*solver_.factor, {precision, problem_.threads()});
+}
+
 FactorStatus IslandTangent::factorize_assembled(bool kept) {
+  prepare_factor();
   factor_is_old_ = false;
   solver_.inertia = 0.0;
   FactorStatus status = solver_.factor->factorize(solver_.matrix.matrix());
@@ -101,6 +110,7 @@ FactorStatus IslandTangent::update_factor() {
   const TimeScheme& scheme = problem_.scheme();
   factor_is_old_ = !scheme.is_static() && solver_.inertia == scheme.inertia;
   assembled_ = false;
+  prepare_factor();
   if (factor_is_old_ && products_pay()) return FactorStatus::success;
   assemble(false);
   return factor_is_old_ ? FactorStatus::success : factorize_assembled(!scheme.is_static());

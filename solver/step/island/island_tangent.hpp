@@ -45,6 +45,8 @@ class IslandTangent {
 
   /// @param positive leave out terms that may make the matrix indefinite
   void assemble(bool positive);
+  /// Sets precision and threads of the factor.
+  void prepare_factor() const;
   /// Factorises the assembled matrix. @param kept for later steps
   [[nodiscard]] FactorStatus factorize_assembled(bool kept);
   /// True if the products of one solution with an old factor cost less than assembly of the matrix, on all processes

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/linear/front_tree.hpp"
+#include "solver/linear/sparse_cholesky.hpp"
 #include "support/random_blocks.hpp"
 
 namespace ashlar::tree_factor_test {
@@ -206,6 +207,21 @@ TEST(TreeFactor, SolvesNothingForBlocksWithoutUnknowns) {
   TreeFactor factor({0, 0});
   ASSERT_EQ(factor.factorize(BlockMatrix({0, 0}, {}).matrix()), FactorStatus::success);
   EXPECT_EQ(factor.solve(Eigen::VectorXd()).size(), 0);
+}
+
+TEST(TreeFactor, IsTheFactorOfManyBlocks) {
+  const auto is_tree = [](int blocks) {
+    const std::unique_ptr<LinearSolver> solver =
+        make_linear_solver(LinearMethod::cholesky, std::vector<int>(static_cast<std::size_t>(blocks), 6));
+    return dynamic_cast<TreeFactor*>(solver.get()) != nullptr;
+  };
+  EXPECT_FALSE(is_tree(blocks_of_tree_factor - 1));
+  EXPECT_TRUE(is_tree(blocks_of_tree_factor));
+  SparseCholesky other;
+  set_use(other, {FactorPrecision::in_single, 4});  // no effect
+  const BlockMatrix blocks = row_of_springs(4, 1.0);
+  ASSERT_EQ(other.factorize(blocks.matrix()), FactorStatus::success);
+  EXPECT_LT((other.solve(Eigen::VectorXd::Ones(4)).array() - 1.0).abs().maxCoeff(), 1e-14);
 }
 
 TEST(TreeFactor, KnowsTheCostOfAFactorBeforehand) {
