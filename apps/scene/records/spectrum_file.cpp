@@ -18,7 +18,7 @@ namespace {
 SceneRecord columns_of(const std::filesystem::path& file, const std::filesystem::path& folder) {
   SceneRecord record;
   record.file = file;
-  record.time = "1";
+  record.time = std::string("1");
   record.values = {"2"};
   if (!refusal_to_read(folder / file).empty()) return record;  // refused again where the record is read
   std::ifstream stream(folder / file, std::ios::binary);
