@@ -177,7 +177,7 @@ template <auto keys, class Inner>
 [[nodiscard]] TableHolder in_optional(bool drop) {
   using Member = std::optional<Inner>;
   TableHolder holder{table_keys<keys>,
-                     [](void* member) -> void* { return &static_cast<Member*>(member)->emplace(); },
+                     [](void* member) -> void* { return &(*static_cast<Member*>(member) = Inner()).value(); },
                      [](const void* member) -> const void* {
                        const Member& held = *static_cast<const Member*>(member);
                        return held ? &*held : nullptr;
