@@ -142,6 +142,13 @@ double weight_of(const std::string& word, const BookSection& section) {
   return weight + (count_of(word, lowered(section.heading)) > 0 ? of_heading : 0.0);
 }
 
+/// Pages that tell how come before those that tell what was tested, or how the code is written.
+double weight_of_page(std::string_view name) {
+  constexpr double how = 1.5, about_the_project = 0.5;
+  if (name.starts_with("howto/") || name.starts_with("tutorial/") || name.starts_with("scenes/")) return how;
+  return name == "validation.md" || name == "contributing.md" || name == "style.md" ? about_the_project : 1.0;
+}
+
 /// Lines about the first places of words, at most a few hundred letters.
 std::string excerpt_of(const BookSection& section, const std::vector<std::string>& words) {
   constexpr std::size_t most = 500;
@@ -234,7 +241,8 @@ std::vector<BookPassage> search_book(std::string_view text, std::size_t most) {
     // Rare words tell more (inverse document frequency).
     const double rarity =
         std::log(1.0 + static_cast<double>(sections.size()) / (1.0 + static_cast<double>(with_word)));
-    for (std::size_t k = 0; k < sections.size(); ++k) scores[k] += rarity * weights[k];
+    for (std::size_t k = 0; k < sections.size(); ++k)
+      scores[k] += rarity * weights[k] * weight_of_page(sections[k].page->name);
   }
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < sections.size(); ++k)

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <string_view>
 #include <system_error>
@@ -56,6 +57,7 @@ bool replace_streams(const CopyStreams& streams) {
 
 ProcessCopy::ProcessCopy(const std::function<int()>& run, const std::optional<CopyStreams>& streams,
                          CopyEnd end) {
+  if (streams) (void)std::fflush(nullptr);  // or the copy would write it once more
   const pid_t parent = ::getpid();
   process_ = ::fork();
   if (process_ < 0)
