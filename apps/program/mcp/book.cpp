@@ -164,7 +164,8 @@ std::string excerpt_of(const BookSection& section, const std::vector<std::string
   for (const auto& [begin, end] : lines) {
     if (text.size() > most) break;
     const std::string_view line = section.text.substr(begin, end - begin);
-    text += (text.empty() ? "" : "\n") + std::string(line.substr(0, most));
+    if (!text.empty()) text += '\n';
+    text += line.substr(0, most);
     if (line.size() > most) text += "...";
   }
   return text;
