@@ -145,12 +145,13 @@ double separated_likelihood(const std::vector<LoggedRun>& points, double between
 
 /// Largest dispersion that separated outcomes allow. @param between largest logarithm that is survived
 double largest_dispersion(const std::vector<LoggedRun>& points, double between, double level) {
-  const auto [first, last] = std::minmax_element(
-      points.begin(), points.end(), [](const LoggedRun& a, const LoggedRun& b) { return a.x < b.x; });
+  const auto ends = std::minmax_element(points.begin(), points.end(),
+                                        [](const LoggedRun& a, const LoggedRun& b) { return a.x < b.x; });
+  const double first = ends.first->x, last = ends.second->x;
   const double least = separated_likelihood(points, between) - 0.5 * std::pow(quantile_of(level), 2);
   const auto allowed = [&](double dispersion) {
     const double beyond = 10.0 * dispersion;
-    return profile(points, dispersion, first->x - beyond, last->x + beyond) >= least;
+    return profile(points, dispersion, first - beyond, last + beyond) >= least;
   };
   double low = 1e-6, high = 1.0;
   constexpr double widest = 1e6;  // few runs allow any dispersion

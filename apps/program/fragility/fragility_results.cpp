@@ -110,20 +110,24 @@ Json limit_json(const FragilityPlan& plan, const IntensityMeasure& measure,
 /// Shares of runs that exceed a limit, in groups of runs with neighbouring intensities.
 PlotSeries shares_of(const std::vector<FragilityRow>& rows, std::size_t limit, const std::string& name) {
   constexpr std::size_t most_groups = 10;
+  constexpr double one_intensity = 1.0 + 1e-9;  // ratio of intensities that differ by rounding
   std::vector<std::pair<double, bool>> known;
   for (const FragilityRow& row : rows)
     if (const auto exceeded = row.exceeded(limit)) known.emplace_back(row.intensity, *exceeded);
   std::sort(known.begin(), known.end());
-  const std::size_t groups = std::min(most_groups, known.size());
   PlotSeries series{fmt::format("{}, share of runs", name), {}, {}};
   series.line = false;
   series.same_color_as_last = true;
-  for (std::size_t group = 0; group < groups; ++group) {
-    const std::size_t first = group * known.size() / groups, end = (group + 1) * known.size() / groups;
+  const std::size_t fewest = (known.size() + most_groups - 1) / most_groups;
+  for (std::size_t first = 0, end = 0; first < known.size(); first = end) {
+    // Runs at one intensity are not divided: they are sorted by their outcome.
+    end = std::min(first + fewest, known.size());
+    while (end < known.size() && known[end].first <= one_intensity * known[end - 1].first) ++end;
+    const auto count = static_cast<double>(end - first);
     double mean = 0.0, share = 0.0;
     for (std::size_t k = first; k < end; ++k) {
-      mean += std::log(known[k].first) / static_cast<double>(end - first);
-      share += known[k].second ? 1.0 / static_cast<double>(end - first) : 0.0;
+      mean += std::log(known[k].first) / count;
+      share += known[k].second ? 1.0 / count : 0.0;
     }
     series.x.push_back(std::exp(mean));
     series.y.push_back(share);
