@@ -51,7 +51,7 @@ namespace ashlar {
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// The whole matrix, in extended precision.
-[[nodiscard]] inline LongMatrix dense(const SymmetricMatrix& matrix) {
+[[nodiscard]] inline LongMatrix long_dense(const SymmetricMatrix& matrix) {
   LongMatrix result = LongMatrix::Zero(matrix.size, matrix.size);
   for (int column = 0; column < matrix.size; ++column) {
     const auto first = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column)]);
@@ -65,7 +65,7 @@ using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 /// Solution by a dense Cholesky factor in extended precision, rounded.
 [[nodiscard]] inline Eigen::VectorXd solve_densely(const SymmetricMatrix& matrix,
                                                    const Eigen::VectorXd& right_side) {
-  return dense(matrix).llt().solve(right_side.cast<long double>()).cast<double>();
+  return long_dense(matrix).llt().solve(right_side.cast<long double>()).cast<double>();
 }
 
 }  // namespace ashlar
