@@ -84,7 +84,7 @@ constexpr const char* placed_cases =
     "forces-alone-factor restitution-heights restitution-none restitution-exchange restitution-cradle "
     "restitution-oblique plane-slide-safety wedge-safety incline-stick incline-slide "
     "block-slide-or-topple wedge shear-patch goodman-bray overturning-limit book-stack base-record "
-    "roof-wedge kinematic-block pushover-sliding pushover-corner";
+    "roof-wedge kinematic-block pushover-sliding pushover-corner crushed-pier";
 
 /// Cases that only a shift leaves as they are: they have supports of some components.
 constexpr const char* moved_cases =
@@ -107,6 +107,8 @@ constexpr std::pair<const char*, const char*> left_out_cases[] = {
     {"bonded-bar", "rounding errors of a placed bond are near its opening at the strength, 1e-10 m"},
     {"bonded-beam", "points of Voronoi cells are drawn in the axes of the scene"},
     {"bonded-stages", "its scene has Voronoi cells too"},
+    {"crack-bar", "takes 3 s"},
+    {"crushed-fall", "takes 2 s"},
     {"rocking-frame", "takes 3 s"},
     {"bonded-strength", "planes of its cut lie in the ends of the bar, beside which rounding leaves slivers"},
     {"self-weight-column", "takes 2 s"},
