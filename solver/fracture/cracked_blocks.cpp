@@ -8,6 +8,33 @@
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
+namespace {
+
+/// Damage of a crack's joint at its most damaged point from which on its parts may crack again. Below, the joint is near its
+/// strength and bounds the tension beside it: rounding and vibration would divide the parts at once. With more, parts wait
+/// longer than the crack needs to unload them.
+constexpr double softened_damage = 0.5;
+
+/// Damage of a joint at its most damaged point, 0 to 1.
+double largest_damage(const PairHistory& pair) {
+  double largest = 0.0;
+  for (const ContactMemory::Entry& entry : pair.memory.entries())
+    largest = std::max(largest, entry.memory.intact ? entry.memory.damage : 1.0);
+  return largest;
+}
+
+/// Parts of one block beside a crack that has not softened yet. @param origins by block. @return by block
+std::vector<bool> beside_new_cracks(const Simulation& run, const std::vector<int>& origins) {
+  std::vector<bool> beside(origins.size(), false);
+  for (const auto& [blocks, pair] : run.histories()) {
+    if (origins[at(blocks[0])] != origins[at(blocks[1])] || pair.memory.empty()) continue;
+    if (!(largest_damage(pair) < softened_damage)) continue;
+    for (const int block : blocks) beside[at(block)] = true;
+  }
+  return beside;
+}
+
+}  // namespace
 
 CrackedBlocks::CrackedBlocks(std::vector<std::optional<CrackLaw>> laws, DefinitionOf definition,
                              const Simulation& run, int most_blocks)
@@ -31,8 +58,9 @@ const BlockDefinition& CrackedBlocks::definition_of(int block) {
 
 std::vector<WeakPlace> CrackedBlocks::weak_places(const Simulation& run) {
   std::vector<int> asked;
+  const std::vector<bool> waits = beside_new_cracks(run, origins_);
   for (int k = 0; k < run.system().count(); ++k) {
-    if (!law_of(k) || !run.system().present(k) || !run.system().moving()[at(k)]) continue;
+    if (waits[at(k)] || !law_of(k) || !run.system().present(k) || !run.system().moving()[at(k)]) continue;
     if (std::binary_search(record_.left_whole.begin(), record_.left_whole.end(), k)) continue;
     asked.push_back(k);
     probes_.try_emplace(k);

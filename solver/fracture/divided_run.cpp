@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/statics/static_verdict.hpp"
 
 namespace ashlar {
 namespace {
@@ -150,6 +151,7 @@ SimulationSnapshot divided_state(const Simulation& run, const PartNumbers& divid
   division.divide_motion(result.run);
   division.divide_contacts(run.system().settings(), joint, result.run.pairs);
   division.divide_level(result.run.states, result.run.statics);
+  if (!result.run.statics.level_start.empty()) forget_accelerations(result.run);
   division.divide_factors(result.load_factors);
   division.divide_finder(divided_run.finder().state(), result.finder);
   result.run.depths = {};
