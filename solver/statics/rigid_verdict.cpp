@@ -114,10 +114,9 @@ bool any_crush(const RigidModel& model) {
   return std::any_of(model.points.begin(), model.points.end(), crushes);
 }
 
-/// Verdict of the load path, with its motion, or the forces and places of its state at rest for an analysis that has none.
-/// @param placed blocks at their initial placement
+/// Verdict on an analysis without a result. @param placed blocks at their initial placement
 StaticStatus verdict_of_path(const BlockSystem& system, const RunState& placed, double end_time,
-                             StaticStatus status, RunState& state) {
+                             RunState& state) {
   RigidModel model = rigid_model(system, placed, end_time, {}, RigidPointKind::springs);
   std::vector<double> allowed = displacements_of_rest(system, model);
   LoadPath path(
@@ -128,7 +127,6 @@ StaticStatus verdict_of_path(const BlockSystem& system, const RunState& placed, 
     return StaticStatus::moving;
   }
   if (trial.outcome != LimitOutcome::stands) return StaticStatus::not_converged;
-  if (status == StaticStatus::equilibrium) return status;
   for (std::size_t k = 0; k < placed.states.size(); ++k)
     state.states[k].position = system.blocks()[k].initial_state().position;
   state.records = contact_records(path.model(), in_newtons(path.model(), trial.end.force));
@@ -156,24 +154,19 @@ StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double en
   const LimitTrial trial = analysis.released({});
   // Blocks are in balance on contacts where rigid blocks have no forces: the rigid model is inconclusive.
   if (status == StaticStatus::equilibrium && !trial.balanced) return status;
-  const bool from_rest = trial.outcome == LimitOutcome::moves;
-  if (status == StaticStatus::moving && !from_rest) {
+  if (trial.outcome == LimitOutcome::moves) {
+    note_motion(system, state, analysis.motion_of(trial));
+    return StaticStatus::moving;
+  }
+  if (status == StaticStatus::moving) {
     state.statics.moving = false;
     return StaticStatus::not_converged;
   }
-  if (status == StaticStatus::equilibrium && !from_rest) return status;
-  const auto moves = [&] {
-    note_motion(system, state, analysis.motion_of(trial));
-    return StaticStatus::moving;
-  };
-  // The load path has no joints that crush. Two methods that find motion agree.
-  if (from_rest && (status == StaticStatus::moving || any_crush(analysis.model()))) return moves();
   // Iterations that fail from the start are those of numbers out of range.
   const bool tried = state.statics.iterations >= system.settings().statics.iterations;
-  if (!from_rest && (any_crush(analysis.model()) || !(tried || is_rigid(system, analysis.model()))))
-    return status;
-  const StaticStatus of_path = verdict_of_path(system, placed, end_time, status, state);
-  return from_rest && of_path == StaticStatus::not_converged ? moves() : of_path;
+  if (status == StaticStatus::equilibrium || !(tried || is_rigid(system, analysis.model()))) return status;
+  if (any_crush(analysis.model())) return status;
+  return verdict_of_path(system, placed, end_time, state);
 }
 
 bool has_accelerations(const StaticState& statics) {

@@ -2,9 +2,8 @@
 // result stands or moves. One in equilibrium moves if the equilibrium needs forces that only wedging could have
 // caused.
 //
-// The load path (load_path.hpp) decides, as for factors: rigid blocks on the springs of their joints, loaded slowly from no
-// forces, come to rest or not. It is asked if there is no result, or if an equilibrium is in doubt because blocks could
-// move from rest without contact forces.
+// An analysis without a result that no motion from rest decides is decided by the load path (load_path.hpp): rigid blocks
+// on the springs of their joints, loaded slowly from no forces, come to rest or not.
 //
 // Motion that contacts or compliance oppose is confirmed by a motion of rigid blocks, or it is none: a block that sinks into
 // a soft one, or sways on it, goes as far as one that slides (notes/when_statics_end.md).
