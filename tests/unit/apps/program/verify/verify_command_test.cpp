@@ -113,8 +113,8 @@ TEST(VerifyCommand, UnknownCasesAreRefusedWithTheNearestName) {
   EXPECT_NE(answer.err.find("did you mean free-fall?"), std::string::npos);
   EXPECT_NE(
       verify({.cases = {"bar"}})
-          .err.find(
-              "did you mean bar-impact or bonded-bar or torsion-bar or spinning-bar or effectivity-bar?"),
+          .err.find("did you mean bar-impact or bonded-bar or crack-bar or torsion-bar or spinning-bar or "
+                    "effectivity-bar?"),
       std::string::npos);
 }
 
