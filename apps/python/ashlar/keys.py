@@ -7,7 +7,7 @@ classes are made from the schema of scenes, so that they have every key of the p
 import dataclasses as _dataclasses
 import json as _json
 
-from . import _core
+from . import _core  # type: ignore[attr-defined]  # made by the compiler
 from ._key_tables import tables_of as _tables_of
 
 
