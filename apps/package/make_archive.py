@@ -108,8 +108,11 @@ def main():
         pack(root, archive)
     print(f"{archive}: {archive.stat().st_size / 1e6:.1f} MB, {len(libraries)} libraries")
     if options.debian:
-        run("cpack", "-G", "DEB", "-B", options.out.resolve(), cwd=options.build)
-        for package in sorted(options.out.glob("*.deb")):
+        with tempfile.TemporaryDirectory() as stage:
+            run("cpack", "-G", "DEB", "-B", stage, cwd=options.build)
+            made = sorted(Path(stage).glob("*.deb"))
+            packages = [Path(shutil.copy(package, options.out)) for package in made]
+        for package in packages:
             print(f"{package}: {package.stat().st_size / 1e6:.1f} MB")
 
 

@@ -22,12 +22,13 @@ cd "$root"
 
 out=$root/build/release-files
 build=
+given=no
 tests=yes
 tag=no
 while (($#)); do
   case $1 in
     --out) out=$(realpath -m -- "${2:?--out needs a folder}"); shift ;;
-    --build) build=$(realpath -- "${2:?--build needs a folder}"); tests=no; shift ;;
+    --build) build=$(realpath -- "${2:?--build needs a folder}"); given=yes; tests=no; shift ;;
     --skip-tests) tests=no ;;
     --tag) tag=yes ;;
     --help) echo "$usage"; exit 0 ;;
@@ -42,7 +43,7 @@ stop() { printf 'release.sh: %s\n' "$*" >&2; exit 1; }
 version=$(sed -n 's/^project(ashlar VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 name=ashlar-$version
 
-# What people forget: each line says what to do.
+# Steps that are easily forgotten: each line says what to do.
 check_tree() {
   say "checks of $version"
   git rev-parse --git-dir >/dev/null 2>&1 || stop 'there is no history; a release is made in a clone'
@@ -87,11 +88,13 @@ write_pages() {
   trap 'rm -rf "$work"' RETURN
   "$build/apps/ashlar" run data/scenes/tunnel_roof.toml --out "$work/roof" --quiet
   "$build/apps/ashlar" view "$work/roof" --out "$out/$name-example.html"
-  if cmake --build "$build" --target help | grep '^docs\b' >/dev/null; then
+  if [[ $given == no ]] && cmake --build "$build" --target help | grep '^docs\b' >/dev/null; then
     cmake --build "$build" --target docs
+  fi
+  if [[ -f $build/docs/html/index.html ]]; then
     python3 -c 'import shutil, sys; shutil.make_archive(sys.argv[1], "zip", sys.argv[2])' "$out/$name-book" "$build/docs/html"
   else
-    echo 'no site: Sphinx or Doxygen is not there'
+    echo 'no site: Sphinx or Doxygen is not there, or the build has none'
   fi
 }
 

@@ -165,7 +165,8 @@ MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double s
   MeanNormal result{point_response(spring, end_gap - closure, Eigen::Vector2d::Zero())};
   const double seen_start = seen_gap(law, start, start_gap - closure);
   const double seen_end = seen_gap(law, result.end, end_gap - closure - result.end.dilation);
-  const bool crushes = closure < 0.0 || result.end.dilation < 0.0;
+  const bool parts = law.tension > 0.0 && result.end.state == ContactState::open;
+  const bool crushes = !parts && (closure < 0.0 || result.end.dilation < 0.0);
   MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, 0.0};
   if (crushes)
     set_mean_crushing(law, start_gap - closure, end_gap - closure, mean);

@@ -3,7 +3,7 @@
 //
 // Mass, momentum and angular momentum are those of the block to rounding, and so is its energy but for the frame of linear
 // elasticity, of which each part has its own: of the order of the product of stress and squared rotation within the block.
-// That change is booked as numerical. The energy of the new springs is booked when the next step detects them.
+// This change is booked as numerical. The energy of the new springs is booked when the next step detects them.
 #pragma once
 
 #include "solver/fracture/divided_block.hpp"

@@ -31,7 +31,7 @@ constexpr double steps_in_margin = 4.0;
 
 /// A block that stands for all blocks of which a rank knows nothing: the solid with the fewest faces, as each has a
 /// surface.
-const BlockModel& placeholder() {
+const BlockModel& unknown_block() {
   static const BlockModel block = [] {
     BlockDefinition definition;
     definition.name = "absent";
@@ -215,7 +215,7 @@ void change_ghosts(SharedBlocks& shared, BlockSystem& system, RunState& state, S
   });
   leave_sums_to_owners(system, state, gone);
   for (const int block : gone)
-    set_block_here(system, state, caches, block, shared.keeps_models ? known(block) : placeholder(), false);
+    set_block_here(system, state, caches, block, shared.keeps_models ? known(block) : unknown_block(), false);
   for (std::size_t k = 0; k < come.size(); ++k)
     set_block_here(system, state, caches, come[k], std::move(models[k]), true);
   update_ghost_models(system, state, caches);
@@ -258,7 +258,7 @@ BlocksOfRank share_blocks(Ranks& ranks, std::vector<int> owners, BlockLoader loa
   shared.keeps_models = keeps_models;
   for (const TieRequest& tie : ties)
     if (share.owner(tie.a) != share.owner(tie.b)) shared.tied.push_back({tie.a, tie.b});
-  result.blocks.assign(at(share.count()), placeholder());
+  result.blocks.assign(at(share.count()), unknown_block());
   shared.paths.assign(at(share.count()), 0.0);
   const auto take = [&](const std::vector<int>& blocks) {
     do_on_all(ranks, [&] {

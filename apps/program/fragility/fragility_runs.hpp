@@ -14,7 +14,7 @@
 
 namespace ashlar {
 
-/// What all runs share.
+/// Settings that all runs share.
 struct FragilityPlan {
   std::filesystem::path scene;
   std::vector<std::string> overrides;  ///< of all runs

@@ -12,7 +12,7 @@
 
 namespace ashlar {
 
-/// What a command did.
+/// Status and output of a command.
 struct CommandOutcome {
   int status;  ///< exit status, -1 if a signal ended it
   std::string out, err;

@@ -12,7 +12,7 @@
 
 namespace ashlar {
 
-/// What a call returns.
+/// Answer to a call.
 struct ToolAnswer {
   std::string text;
   nlohmann::ordered_json data = nullptr;  ///< an object that the text holds too, for programs; null: none

@@ -31,7 +31,7 @@ class WorkProcess {
   /// s from its start to its end, or to the present.
   [[nodiscard]] double seconds();
 
-  /// What it has printed so far.
+  /// Its output so far.
   [[nodiscard]] std::string out() const;
   [[nodiscard]] std::string err() const;
 

@@ -1,4 +1,4 @@
-// What the tools of a server share: its folder, its limits and its runs.
+// Folder, limits and runs of a server, which its tools share.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-"""Tables of a scene from its JSON schema, as classes with fields: the source of `ashlar.keys` and of its stub."""
+"""Tables of a scene from its JSON schema, as classes with fields: the source of `ashlar.keys`."""
 
 import dataclasses
 import json

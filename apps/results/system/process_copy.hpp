@@ -15,7 +15,7 @@ struct CopyStreams {
   std::filesystem::path out, err;
 };
 
-/// What happens to a copy when this process has ended.
+/// Fate of a copy when this process has ended.
 enum class CopyEnd {
   asked,    ///< SIGTERM, which a run takes as a request to save its state
   at_once,  ///< SIGKILL

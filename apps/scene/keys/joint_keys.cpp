@@ -221,7 +221,7 @@ const Own<Joint> tied = {"true or false or { tension, shear }",
                          },
                          []() -> const TableKeys& { return tie_table.table(); }};
 
-/// Those of the law, in place of those of [contact].
+/// Keys of the law, in place of those of [contact].
 std::vector<Key<Joint>> keys_of_law() {
   std::vector<Key<Joint>> keys = joined(keys_of_strength<Joint>(), keys_of_failure<Joint>());
   for (Key<Joint>& key : keys) {

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 class TableKeys;
 
-/// What a key holds: it is read, written and described here. Functions have the address of the member that holds the
+/// The values that a key may hold: they are read, written and described here. Functions have the address of the member that holds the
 /// value; its type belongs to the class that is derived.
 class Values {
  public:
@@ -32,7 +32,7 @@ class Values {
   [[nodiscard]] virtual Json json(const void* member) const = 0;
   /// JSON schema of the value.
   [[nodiscard]] virtual Json schema() const = 0;
-  /// What is accepted, in the words of messages: "a number > 0".
+  /// The accepted values in the words of messages: "a number > 0".
   [[nodiscard]] virtual std::string words() const = 0;
   /// Of a value that is missing or faulty: makes it one to which no later check applies, where there is one (not finite).
   virtual void spoil(void* member) const { (void)member; }

@@ -1,4 +1,4 @@
-// What keys hold: numbers, words, places, lists, tables. Each function declares a key by its name, the member that holds
+// Values of keys: numbers, words, places, lists, tables. Each function declares a key by its name, the member that holds
 // it, its limits, its unit ("" if it has none) and its meaning.
 #pragma once
 
@@ -315,7 +315,7 @@ Key<Struct> own(const char* name, Own<Struct> form, const char* unit, const char
            [](void* object) { return object; }}};
 }
 
-/// What the reader found for a key, for JSON. @param json null if there is nothing
+/// A finding of the reader for a key, for JSON. @param json null if there is nothing
 template <class Struct>
 Key<Struct> found(const char* name, Json (*json)(const Struct& object)) {
   return own<Struct>(name, {"", nullptr, nullptr, json}, "", "").found_by_reader();

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
 #include <string>
 
 #include "unit/apps/run_fixture.hpp"
@@ -130,6 +132,41 @@ TEST_F(CrushingRun, AStaticAnalysisStandsAndMovesWhereTheStressBlockSays) {
     const std::string out = share < 1.0 ? "stands" : "moves";
     ASSERT_EQ(run_of(scene, out), 0) << faults_;
     EXPECT_EQ(summary(out).at("status"), share < 1.0 ? "equilibrium" : "moving") << share;
+  }
+}
+
+/// Piers of any shape, strength and order. @param share of the width that crushes under the weight
+std::string any_pier(const Vector3& size, double share, int order, const std::string& method) {
+  const double weight = 2000.0 * size.prod() * g;
+  std::ostringstream text;
+  text << "[analysis]\ntype = \"capacity\"\nmethod = \"" << method
+       << "\"\ncapacity = { lower = 0.01, upper = 2, tolerance = 1e-3 }\n[contact]\nfriction_angle = 50\n"
+       << "normal_stiffness = 1e12\nshear_stiffness = 5e11\ncompressive_strength = "
+       << weight / (share * size[0] * size[1]) << '\n'
+       << rock_text << "[[block]]\nname = \"ground\"\nfixed = true\n"
+       << "box = { min = [-2, -2, -1], max = [4, 4, 0] }\n[[block]]\nname = \"pier\"\nmaterial = "
+          "\"rock\"\norder = "
+       << order << "\nbox = { min = [0, 0, 0], max = [" << size[0] << ", " << size[1] << ", " << size[2]
+       << "] }\n[[block.load]]\npoint = [0, " << 0.5 * size[1] << ", " << size[2] << "]\nforce = ["
+       << 0.5 * weight * size[0] / size[2] << ", 0, 0]\n";
+  return text.str();
+}
+
+/// Without crushing the factor is 1, with it 1 - share: F h = W (b - w)/2.
+TEST_F(CrushingRun, StaticAnalysesAgreeWithLimitAnalysis) {
+  std::mt19937_64 random(20261130);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * 0x1p-53 * static_cast<double>(random() >> 11U);
+  };
+  for (int k = 0; k < 6; ++k) {
+    const Vector3 size(between(0.3, 1.0), between(0.2, 1.0), between(1.0, 2.5));
+    const double share = between(0.05, 0.4);
+    for (const std::string method : {"limit", "elastic"}) {
+      const std::string out = method + std::to_string(k);
+      ASSERT_EQ(run_of(any_pier(size, share, k % 3, method), out), 0) << faults_;
+      EXPECT_NEAR(summary(out).at("load_factor").at("lower").get<double>(), 1.0 - share, 0.01 * (1.0 - share))
+          << out << ", size " << size.transpose() << ", share " << share;
+    }
   }
 }
 

@@ -28,7 +28,7 @@ Json printed_json(const CommandOutcome& outcome) {
   }
 }
 
-/// What forbids a run of a scene that was checked.
+/// Reason not to run a scene that was checked.
 Json limits_exceeded(const Json& report, const SceneLimits& limits) {
   Json exceeded = Json::array();
   if (!report.contains("estimate")) return exceeded;

@@ -12,11 +12,11 @@ namespace ashlar {
 [[nodiscard]] std::vector<Tool> book_tools();
 /// Files of the folder, new scenes.
 [[nodiscard]] std::vector<Tool> file_tools(Workspace& workspace);
-/// What a scene holds: faults, blocks; contacts of meshes and of blocks; verification cases.
+/// Tools of a scene: its faults and blocks; contacts of meshes and of blocks; verification cases.
 [[nodiscard]] std::vector<Tool> scene_tools(Workspace& workspace);
 /// Runs: started, polled, stopped.
 [[nodiscard]] std::vector<Tool> run_tools(Workspace& workspace);
-/// What a run has left: summary, history, pictures, page.
+/// Tools of results: summary, history, pictures, page.
 [[nodiscard]] std::vector<Tool> result_tools(Workspace& workspace);
 
 /// All of them, in the order in which a client needs them. @param workspace lives longer

@@ -51,7 +51,7 @@ TEST(RefusalToRead, IsOfFilesOutsideOfAllFolders) {
   } catch (const MeshFileError& fault) {
     EXPECT_THAT(fault.what(), HasSubstr("outside of the folder"));
   }
-  // Whether a file exists outside is not told.
+  // The message does not tell if the file outside exists.
   try {
     (void)read_mesh(outside / "none.off");
     FAIL();

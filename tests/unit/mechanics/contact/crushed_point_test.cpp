@@ -77,6 +77,16 @@ TEST(CrushedPoint, ClosureOfTheStartIsKept) {
   EXPECT_NEAR(back.mean.force[0], 3000.0, 1e-9);
 }
 
+TEST(CrushedPoint, ABondThatPartsInTheStepHasLostItsForce) {
+  JointLaw law{2e9, 1e9, 0.5, 0.0, 2e4};
+  law.compressive_strength = 4e4;
+  const PointLaw point = point_law(law, area, true);
+  const PointResponse start = point_response(point, -5e-5, {0, 0});
+  const AveragedStep step = averaged_step(point, start, {-5e-5, 0, 0}, {1e-3, 0, 0});
+  EXPECT_EQ(step.end.state, ContactState::open);
+  EXPECT_EQ(step.mean.force[0], 0.5 * 4000.0);
+}
+
 TEST(CrushedPoint, TangentsAreDerivatives) {
   const PointLaw point = weak_point();
   for (const double gap : {-1.2e-5, -3.1e-5, -4.7e-5}) {

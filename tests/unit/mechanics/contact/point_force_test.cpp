@@ -51,13 +51,14 @@ TEST(FrequentLaw, IsThePointLawWithoutWhatItDoesNotHave) {
 }
 
 TEST(FrequentLaw, OthersAreNotFrequent) {
-  std::vector<PointLaw> others(5, point_law(test_support::law, 0.1, true));
+  std::vector<PointLaw> others(6, point_law(test_support::law, 0.1, true));
   others[0].dilation.tangent = 0.1;
   others[1].dashpots.normal = 1.0;
   others[2].dashpots.shear = 1.0;
   others[3].bond.tension = 1.0;
   others[4].is_static = true;
   others[4].residual[2] = others[4].tension;
+  others[5].crushing = 1e4;
   for (const PointLaw& law : others) EXPECT_FALSE(is_frequent(law));
 }
 

@@ -1,4 +1,4 @@
-// What the protocol's order and tools of the test's own show; tests/mcp talks to the program itself.
+// Order of the protocol, with tools of the test's own; tests/mcp talks to the program itself.
 #include "apps/program/mcp/mcp_session.hpp"
 
 #include <gmock/gmock.h>
