@@ -9,7 +9,8 @@ scale. The same records move Housner's block (1963), a rigid body that turns abo
     theta'' = -p^2 [ sin(s a - theta) + (a_g / g) cos(s a - theta) ],  p^2 = 3 g / (4 R),  tan(a) = b / h,  s = sign(theta)
 
 which leaves its base when |a_g| > g tan(a), and keeps 1 - 3/2 sin^2(a) of its angular velocity when it lands on it. Here it is
-integrated by Runge and Kutta's method with steps of 1 ms, cut where theta changes its sign.
+integrated by Runge and Kutta's method with steps of 1 ms, cut where theta changes its sign. Its edges do not sink in, so that the
+program has multipliers: on springs of automatic stiffness the block leaves its base at 1 % less.
 
 At each scale, 97 % of the records have to overturn both blocks, or neither; the medians of both fragility curves may differ by 3 %.
 """
@@ -32,8 +33,8 @@ INTERVAL, DURATION, AFTER = 0.02, 8.0, 5.0  # s
 OVERTURNED = math.radians(45.0)
 
 SCENE = """title = "Housner's block on a base that follows a record"
-analysis = { end_time = 8, time_step = 1e-3, gravity = [0, 0, -9.80665] }
-contact = { friction_angle = 60 }
+analysis = { end_time = 8, time_step = 5e-4, gravity = [0, 0, -9.80665] }
+contact = { friction_angle = 60, augmented = true }
 material = [{ name = "stone", density = 2500, young_modulus = 1e10, poisson_ratio = 0.2 }]
 [[block]]
 name = "base"
@@ -156,7 +157,7 @@ def main():
     options.add_argument("--records", type=int, default=200)
     options.add_argument("--scales", default="0.4,0.5,0.6,0.7,0.8")
     options.add_argument("--jobs", type=int, default=1)
-    options.add_argument("--time-step", default="1e-3")
+    options.add_argument("--time-step", default="5e-4")
     options.add_argument("--keep", type=pathlib.Path)
     chosen = options.parse_args()
     with tempfile.TemporaryDirectory() as scratch:

@@ -10,23 +10,34 @@ namespace {
 /// takes away less. A smaller value would allow motions that supports prevent in part.
 constexpr double unrestricted = 1.0 - 1e-9;
 
-/// Rigid motions that the supports of a block leave, orthonormal. @return (unknowns, at most 6)
-Eigen::MatrixXd rigid_modes(const BlockModel& block, const BlockState& state) {
+/// Rigid motions of a block, those that its supports leave and the others.
+struct SupportedMotions {
+  Eigen::MatrixXd free;    ///< orthonormal, (unknowns, at most 6)
+  Eigen::MatrixXd driven;  ///< that supports prevent at least in part, orthonormal, (3p, the rest of 6)
+  Eigen::VectorXd shares;  ///< squared length of what they prevent of each of these, of 1
+};
+
+SupportedMotions supported_motions(const BlockModel& block, const BlockState& state) {
   const Eigen::MatrixXd fields = rigid_fields(state.position);
-  Eigen::MatrixXd modes(block.unknowns(), fields.cols());
+  SupportedMotions motions;
+  motions.free.resize(block.unknowns(), fields.cols());
   for (Eigen::Index k = 0; k < fields.cols(); ++k)
-    modes.col(k) = block.space().restrict(Eigen::MatrixX3d(fields.col(k).reshaped(fields.rows() / 3, 3)));
-  if (!block.supported()) return modes;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(modes.transpose() * modes);
+    motions.free.col(k) =
+        block.space().restrict(Eigen::MatrixX3d(fields.col(k).reshaped(fields.rows() / 3, 3)));
+  if (!block.supported()) return motions;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(motions.free.transpose() * motions.free);
   const Eigen::Index lost = (parts.eigenvalues().array() < unrestricted).count();
-  return modes * parts.eigenvectors().rightCols(modes.cols() - lost);
+  motions.driven = fields * parts.eigenvectors().leftCols(lost);
+  motions.shares = 1.0 - parts.eigenvalues().head(lost).array();
+  motions.free *= parts.eigenvectors().rightCols(fields.cols() - lost);
+  return motions;
 }
 
 }  // namespace
 
 const Eigen::MatrixXd& RigidMotions::modes(int block) {
   const auto [found, is_new] = modes_.emplace(block, Eigen::MatrixXd());
-  if (is_new) found->second = rigid_modes(system_.blocks()[at(block)], states_[at(block)]);
+  if (is_new) found->second = supported_motions(system_.blocks()[at(block)], states_[at(block)]).free;
   return found->second;
 }
 
@@ -37,12 +48,22 @@ Eigen::VectorXd RigidMotions::velocity(int block) {
   return rigid * (rigid.transpose() * model.space().restrict(states_[at(block)].velocity));
 }
 
-Eigen::MatrixX3d RigidMotions::driven_velocity(int block) const {
+const Eigen::MatrixX3d& RigidMotions::driven_velocity(int block) {
+  const auto [found, is_new] = driven_.emplace(block, Eigen::MatrixX3d());
   const BlockModel& model = system_.blocks()[at(block)];
-  if (!model.driven()) return {};
+  if (!is_new || !model.driven()) return found->second;
   const Eigen::MatrixX3d& velocity = states_[at(block)].velocity;
-  return model.fixed() ? velocity
-                       : Eigen::MatrixX3d(velocity - model.space().expand(model.space().restrict(velocity)));
+  if (model.fixed()) return found->second = velocity;
+  // What supports prescribe says nothing of the rest of the block. The rigid motion that agrees with it does.
+  const SupportedMotions motions = supported_motions(model, states_[at(block)]);
+  const Eigen::MatrixX3d prescribed = velocity - model.space().expand(model.space().restrict(velocity));
+  const Eigen::VectorXd rates =
+      (motions.driven.transpose() * prescribed.reshaped()).cwiseQuotient(motions.shares);
+  const Eigen::VectorXd rigid = motions.driven * rates;
+  found->second =
+      prescribed +
+      model.space().expand(model.space().restrict(Eigen::MatrixX3d(rigid.reshaped(velocity.rows(), 3))));
+  return found->second;
 }
 
 const Eigen::Matrix3Xd& RigidMotions::at_points(const ContactPair& pair) {

@@ -21,8 +21,9 @@ class RigidMotions {
   const Eigen::MatrixXd& modes(int block);
   /// Rigid part of the velocity of the unknowns; zero of a block that does not move.
   Eigen::VectorXd velocity(int block);
-  /// Velocity by moving supports, (p, 3); empty: none.
-  [[nodiscard]] Eigen::MatrixX3d driven_velocity(int block) const;
+  /// Velocity by moving supports, (p, 3): of a block that they move rigidly, the rigid motion that has their velocity where
+  /// they are, without part in its modes; empty: none.
+  const Eigen::MatrixX3d& driven_velocity(int block);
   /// Relative velocities of a pair's points along normals and tangents, m/s, computed on first use. @return (3, #points)
   const Eigen::Matrix3Xd& at_points(const ContactPair& pair);
   /// Accelerations of a pair's points by gravity and loads, along their normals, m/s^2.
@@ -32,6 +33,7 @@ class RigidMotions {
   const BlockSystem& system_;
   const std::vector<BlockState>& states_;
   std::map<int, Eigen::MatrixXd> modes_;
+  std::map<int, Eigen::MatrixX3d> driven_;
   std::map<const ContactPair*, Eigen::Matrix3Xd> at_points_;
 };
 

@@ -143,5 +143,34 @@ TEST(DrivenSupport, SlowBeltInStatics) {
   EXPECT_NEAR(place_of(simulation, 1, {0.5, 0.5, 0.2}).x(), 0.5 + 1e-4, 1e-8);
 }
 
+TEST(DrivenSupport, ABlockReboundsFromABaseThatIsHeldOnOneSide) {
+  // The support raises the lower side of the base, whose upper side follows by its equations of motion. The base is as heavy
+  // as its support: a block at rest above it leaves with v (1 + e).
+  const double speed = 2.0, restitution = 0.5;
+  for (const int order : {1, 2}) {
+    BlockDefinition base =
+        block_of("base", Polyhedron(make_box({-1, -1, -1}, {1, 1, 0})), {2500, 1e10, 0.2}, order);
+    base.supports.push_back(
+        {Plane{{0, 0, -1}, Vector3::UnitZ()}, all, {{0.0, 1.0}, {Vector3::Zero(), {0, 0, speed}}}});
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(std::move(base));
+    blocks.emplace_back(
+        block_of("block", Polyhedron(make_box({-0.1, -0.1, 0.02}, {0.1, 0.1, 0.22})), {2500, 1e10, 0.2}, 0));
+    SimulationSettings settings;
+    settings.gravity.setZero();
+    settings.time_step = 1e-3;
+    settings.contact_distance = 1e-3;
+    JointLaw law{1e11, 5e10, 0.5, 0.0, 0.0, true};
+    law.rigid = true;
+    law.restitution = restitution;
+    Simulation simulation(std::move(blocks), {{}, {}}, same_law(law), settings);
+    ASSERT_TRUE(run_until(simulation, 0.05));
+    const BlockModel& block = simulation.blocks()[1];
+    const double reached = block.momentum(simulation.states()[1]).z() / block.mass();
+    EXPECT_NEAR(reached / (speed * (1.0 + restitution)), 1.0, 1e-6) << "order " << order;
+    EXPECT_LT(std::abs(simulation.ledger().residual), 1e-9 * simulation.ledger().kinetic);
+  }
+}
+
 }  // namespace
 }  // namespace ashlar::driven_support_test
