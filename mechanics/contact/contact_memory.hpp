@@ -34,8 +34,9 @@ struct PointMemory {
                           ///< slip yet
   double dilation = 0.0;  ///< dilation by sliding: height of the normal spring's rest gap, m, >= 0
   double level_dilation = 0.0;  ///< the same at the start of the present load level
-  double damage = 0.0;          ///< of a bond with fracture energy (bond_damage.hpp), 0 to 1
-  double level_damage = 0.0;    ///< the same at the start of the present load level
+  double damage =
+      0.0;  ///< of a bond with fracture energy (bond_damage.hpp), or wear of a rough joint, 0 to 1
+  double level_damage = 0.0;  ///< the same at the start of the present load level
 };
 
 /// Memory of a pair of blocks.

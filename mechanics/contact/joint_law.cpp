@@ -17,6 +17,10 @@ void PointLaw::set_damage(double damage) {
   cohesion = bond.cohesion * (1.0 - damage);
 }
 
+double PointLaw::shear_strength(double normal) const {
+  return friction_under(*this, std::max(normal, 0.0)).value + cohesion;
+}
+
 PointLaw point_law(const JointLaw& law, double area, bool intact, double damage) {
   const double scale = law.area_springs ? area : 1.0;
   const ResidualStrength residual = law.residual.value_or(ResidualStrength{law.friction, 0.0, 0.0});
@@ -25,6 +29,7 @@ PointLaw point_law(const JointLaw& law, double area, bool intact, double damage)
   point.residual = {residual.friction, residual.cohesion * area, residual.tensile_strength * area};
   point.dilation.tangent = law.dilation;
   if (law.crushes() && area > 0.0) point.crushing = law.compressive_strength * area;
+  point.roughness = point_roughness(law.roughness, area, damage);
   if (law.fracture.given()) point.bond = bond_of(law, area);
   if (point.bond.softens()) point.set_damage(damage);
   if (!intact) point.fail();
@@ -83,6 +88,8 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
   if (at.state == ContactState::locked) set_shear_energy(law, slip, response);
   if (at.state != ContactState::sliding) return response;
   response.direction = at.trial / at.length;
+  if (law.roughness.given() && law.shear_stiffness > 0.0)
+    response.slid = (at.length - at.bound) / shear_resistance(law);
   if (law.shear_stiffness > 0.0)
     set_shear_energy(
         law,
@@ -186,10 +193,11 @@ MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double s
   const ClosedShare closed = closed_share(law, start_open, seen_start, end_open, seen_end);
   const double pushing = std::max(result.force, 0.0);
   const double by_force = result.force >= 0.0 ? result.slope : 0.0;
-  result.limit = pushing * law.friction + closed.value * law.cohesion;
+  const ShearBound friction = friction_under(law, pushing);
+  result.limit = friction.value + closed.value * law.cohesion;
   result.bound = law.held_limit >= 0.0
                      ? ShearBound{law.held_limit + dilation * pushing, dilation * by_force}
-                     : ShearBound{result.limit, law.friction * by_force - law.cohesion * closed.by_end_gap};
+                     : ShearBound{result.limit, friction.slope * by_force - law.cohesion * closed.by_end_gap};
   if (law.held_limit < 0.0) result.limit = std::max(0.0, result.limit - dilation * pushing);
   return result;
 }
@@ -251,6 +259,7 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   } else {
     const Eigen::Vector2d direction = trial / length;
     mean.force.tail<2>() = limit * direction;
+    if (law.roughness.given() && stiffness > 0.0) end.slid = (length - limit) / stiffness;
     const double lever = dilation.lever(slid);
     mean.coupling = tangent_of({normal.slope * lever, normal.bound.slope * lever, stiffness,
                                 dilation.tangent / lever, limit / length, direction},

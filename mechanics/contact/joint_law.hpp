@@ -38,6 +38,8 @@
 //     N = min(-kn g, P),    c = max(0, -g - P/kn),
 // friction is that under N, and P c is dissipated. Such a point has a spring without multiplier, dashpot or dilation.
 //
+// A rough joint (rough_joint.hpp) has the bound tau(N / A) A in place of N tan(phi), also where N is a mean force.
+//
 // Damping (notes/joint_damping.md): a dashpot parallel to each spring, before the slider, while the point is closed.
 // Without tensile strength it never makes N negative.
 //
@@ -50,6 +52,7 @@
 #include <optional>
 
 #include "mechanics/contact/bond_damage.hpp"
+#include "mechanics/contact/rough_joint.hpp"
 
 namespace ashlar {
 
@@ -93,6 +96,9 @@ struct JointLaw {
   std::optional<double> restitution = std::nullopt;
   /// Pa, > 0: plastic cap of normal pressure. In limit analysis solver/limit/crushing_joints.hpp
   double compressive_strength = std::numeric_limits<double>::infinity();
+  /// With it: `friction` and the residual friction are those of the worn joint; area springs, no gradual damage, no
+  /// compressive strength
+  Roughness roughness = {};
 
   /// True if pressure has a plastic cap.
   [[nodiscard]] bool crushes() const {
@@ -141,6 +147,7 @@ struct PointLaw {
   BondDamage bond = {};    ///< of a joint with fracture energy
   bool is_static = false;  ///< tensile strength that cannot fail yields instead of opening
   double crushing = std::numeric_limits<double>::infinity();  ///< f A, N: largest normal force
+  PointRoughness roughness = {};
 
   /// True if tension is bounded by a plateau of the normal force.
   [[nodiscard]] bool yields() const { return is_static && tension > 0.0 && tension <= residual[2]; }
@@ -161,10 +168,12 @@ struct PointLaw {
   }
   /// Sets the damage of a bond with fracture energy at the start of a step, and the strength left.
   void set_damage(double damage);
+  /// Resistance of the strength to sliding, N. @param normal N
+  [[nodiscard]] double shear_strength(double normal) const;
 };
 
 /// @param area tributary area of the point, m^2. @param intact false: with residual strength
-/// @param damage of a joint with fracture energy at the start of the step, 0 to 1
+/// @param damage of a joint with fracture energy, or wear of a rough one, at the start of the step, 0 to 1
 [[nodiscard]] PointLaw point_law(const JointLaw& law, double area, bool intact, double damage = 0.0);
 
 /// Unsymmetric part of -d force / d (g, s1, s2), missing from a symmetric tangent: force by'. With dilation
@@ -192,6 +201,7 @@ struct PointResponse {
   double damped = 0.0;  ///< energy dissipated by the dashpots in the step, J
   Eigen::Vector2d shear_damped = Eigen::Vector2d::Zero();  ///< part of `force` due to the shear dashpot, N
   double damage = 0.0;  ///< of a bond with fracture energy at the end of the step, 0 to 1
+  double slid = 0.0;    ///< slip of a rough joint in the step that remains, m
   /// Energy dissipated by damage in the step beside that of the shear force on permanent slip, or by crushing, J
   double fractured = 0.0;
 

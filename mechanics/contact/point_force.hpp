@@ -1,8 +1,8 @@
 // Force of a contact point at the end of a step as a function of its place: the part of the law of joint_law.hpp that
 // every guess of a step needs. point_response() adds derivatives, energies and dissipation.
 //
-// The functions take any law with the members of PointLaw. One without `dilation`, `dashpots`, `yields` or `crushing`
-// has none of these, and takes no time for them.
+// The functions take any law with the members of PointLaw. One without `dilation`, `dashpots`, `yields`, `crushing` or
+// `roughness` has none of these, and takes no time for them.
 #pragma once
 
 #include <Eigen/Dense>
@@ -45,7 +45,7 @@ struct FrequentLaw {
 /// True if FrequentLaw has all that acts at the point.
 [[nodiscard]] inline bool is_frequent(const PointLaw& law) {
   return law.dilation.tangent == 0.0 && law.dashpots.normal == 0.0 && law.dashpots.shear == 0.0 &&
-         !law.bond.softens() && !law.yields() && !law.crushes();
+         !law.bond.softens() && !law.yields() && !law.crushes() && !law.roughness.given();
 }
 
 /// tan(psi) over a step and its decrease with the gap at its end.
@@ -123,6 +123,15 @@ template <class Law>
   return {pushing + law.impulse_force, 1.0};
 }
 
+/// Friction under a normal force. @param normal N, >= 0
+template <class Law>
+[[nodiscard]] ShearBound friction_under(const Law& law, double normal) {
+  if constexpr (requires { law.roughness; }) {
+    if (law.roughness.given()) return rough_bound(law.roughness, normal);
+  }
+  return {law.friction * normal, law.friction};
+}
+
 /// @param normal force, N. @param dilation tan(psi) in the step
 template <class Law>
 [[nodiscard]] ShearBound shear_bound(const Law& law, double normal, double dilation) {
@@ -130,7 +139,8 @@ template <class Law>
   if (law.held_limit >= 0.0)
     return {law.held_limit + dilation * std::max(normal, 0.0), pushes ? dilation : 0.0};
   const RubbingForce rubbing = rubbing_force(law, normal);
-  return {rubbing.value * law.friction + law.cohesion, pushes ? rubbing.slope * law.friction : 0.0};
+  const ShearBound friction = friction_under(law, rubbing.value);
+  return {friction.value + law.cohesion, pushes ? rubbing.slope * friction.slope : 0.0};
 }
 
 /// Shear force of a state that PointLaw::held_limit replaces, N: MeanResponse::limit at the end of a step.
@@ -147,6 +157,7 @@ template <class Law>
 template <class Law>
 [[nodiscard]] bool is_locked(const Law& law, double trial, double limit) {
   bool smooth = law.friction == 0.0 && law.cohesion == 0.0;
+  if constexpr (requires { law.roughness; }) smooth = smooth && !law.roughness.given();
   if (law.held_limit >= 0.0) {
     smooth = law.held_limit == 0.0;
     if constexpr (requires { law.dilation; }) smooth = smooth && law.dilation.tangent == 0.0;

@@ -6,14 +6,9 @@
 #include <limits>
 
 #include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/shear_bound.hpp"
 
 namespace ashlar {
-
-/// Bound of the shear force and its derivative by the normal force.
-struct ShearBound {
-  double value;  ///< N
-  double slope;
-};
 
 /// Slip of a point that dilates: the root p of  trial - stiffness p = limit,  for a limit that does not decrease with
 /// p.

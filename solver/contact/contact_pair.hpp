@@ -228,6 +228,7 @@ class ContactPair {
     bool freezes_failure = false;
     bool goes_on = false;
     std::optional<double> restitution = std::nullopt;
+    Roughness roughness = {};
   };
 
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,

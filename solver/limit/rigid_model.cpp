@@ -14,6 +14,7 @@
 #include "solver/limit/crushing_joints.hpp"
 #include "solver/limit/rigid_bolts.hpp"
 #include "solver/limit/rigid_points.hpp"
+#include "solver/limit/rough_friction.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -186,7 +187,10 @@ void set_points(RigidModel& model, std::vector<RigidPoint> points) {
   model.points = std::move(points);
 }
 
-RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
+namespace {
+
+/// A model with the friction of its joints' laws.
+RigidModel plain_model(const BlockSystem& system, const RunState& state, double end_time,
                        const std::vector<bool>& multiplied, RigidPointKind kind) {
   RigidModel model;
   model.body_of.assign(at(system.count()), -1);
@@ -227,6 +231,19 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
   if (largest > 0.0) model.units.acceleration = largest / model.units.mass;
   for (auto* loads : {&model.steady, &model.multiplied})
     for (BodyVelocity& load : *loads) load /= model.units.force();
+  return model;
+}
+
+}  // namespace
+
+RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
+                       const std::vector<bool>& multiplied, RigidPointKind kind) {
+  RigidModel model = plain_model(system, state, end_time, multiplied, kind);
+  if (!has_rough_joints(model)) return model;
+  if (kind == RigidPointKind::limit)
+    set_rough_friction(model, LimitFactors{});
+  else
+    set_rough_friction(model, rough_friction(rigid_model(system, state, end_time, multiplied)));
   return model;
 }
 
@@ -355,6 +372,7 @@ void keep_residual_strength(RigidModel& model) {
         law.tensile_strength = failed.tension;
         law.residual = ResidualStrength{law.friction, law.cohesion, law.tensile_strength};
         law.fracture = {};
+        if (law.roughness.wears()) law.roughness = {};
       }
       // Parts of overlaps transmit cohesion and tension alone.
       const bool part = !point.bar && point.area > 0.0 && point.spring.normal == 0.0;

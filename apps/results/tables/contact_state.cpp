@@ -37,8 +37,7 @@ JointForces forces_of(const Simulation& simulation, const PairRecord& record) {
     strengths[k] = response.force.tail<2>().norm();
     if (response.state == ContactState::locked) {
       const PointLaw of_point = point_law(law, record.points[k].area, true);
-      strengths[k] =
-          std::max(strengths[k], of_point.friction * std::max(response.force[0], 0.0) + of_point.cohesion);
+      strengths[k] = std::max(strengths[k], of_point.shear_strength(response.force[0]));
     }
     forces.strength += strengths[k];
     forces.centre += strengths[k] * record.points[k].place_a;

@@ -13,6 +13,7 @@
 #include "apps/run/answers/path_run.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "mechanics/block/rigid_body.hpp"
+#include "solver/limit/rough_friction.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -176,8 +177,10 @@ const LimitMotion& signed_motion(const LimitFindings& findings) {
   return findings.path.motion.blocks.empty() ? findings.released : findings.path.motion;
 }
 
-LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
-                          const std::function<bool()>& goes_on) {
+namespace {
+
+LimitFindings limits_of(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
+                        const std::function<bool()>& goes_on) {
   LimitFindings findings;
   findings.has_residual_strength = model.has_residual_strength;
   const JointSelection reduced(scene, scene.analysis.safety.of);
@@ -211,6 +214,25 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation
   if (!findings.answer.interrupted)
     findings.crushing = find_crushing(analysis, findings.path.answer, scene.analysis, threads);
   return findings;
+}
+
+/// Searches with the friction of rough joints at the limit of the search before, and change of it at which they end.
+constexpr int most_searches = 8;
+constexpr double same_friction = 1e-3;
+
+}  // namespace
+
+LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
+                          const std::function<bool()>& goes_on) {
+  for (int n = 1;; ++n) {
+    LimitFindings findings = limits_of(scene, model, simulation, threads, goes_on);
+    const std::optional<double>& stands = findings.answer.released.lower;
+    if (!has_rough_joints(model) || findings.answer.interrupted || !stands || n == most_searches)
+      return findings;
+    const LimitFactors limit =
+        is_safety(scene.analysis) ? LimitFactors{*stands, 1.0} : LimitFactors{1.0, *stands};
+    if (set_rough_friction(model, limit) <= same_friction) return findings;
+  }
 }
 
 Json bars_json(const std::vector<BarForce>& forces, const Simulation& simulation) {

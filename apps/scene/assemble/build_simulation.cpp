@@ -102,11 +102,19 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockSummar
   return settings;
 }
 
+/// @param worn tan(phi_r)
+Roughness roughness_of(const SceneRoughness& given, double worn) {
+  Roughness roughness{given.jrc, given.jcs, worn};
+  if (given.length) roughness.peak_slip = peak_slip_of(given.jrc, *given.length);
+  return roughness;
+}
+
 /// The law with its strength divided by a factor.
 JointLaw reduced(JointLaw law, double factor) {
   for (double* strength : {&law.friction, &law.cohesion, &law.tensile_strength, &law.compressive_strength,
                            &law.residual->friction, &law.residual->cohesion, &law.residual->tensile_strength})
     *strength /= factor;
+  law.roughness.share /= factor;
   // The dilation of a joint is limited by its friction.
   law.dilation = std::min(law.dilation, law.residual->friction);
   return law;
@@ -161,6 +169,7 @@ class JointLaws {
       result.compressive_strength = *given.compressive_strength;
       result.is_compliant = multipliers_;
     }
+    if (given.roughness) result.roughness = roughness_of(*given.roughness, result.friction);
     // One entry may give the residual and a later one a smaller strength.
     result.residual = {
         std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),

@@ -14,6 +14,7 @@
 #include "apps/scene/check/formulation_checks.hpp"
 #include "apps/scene/check/joint_checks.hpp"
 #include "apps/scene/check/measure_checks.hpp"
+#include "apps/scene/check/roughness_checks.hpp"
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/model/block_names.hpp"
 #include "apps/scene/model/joint_table.hpp"
@@ -313,6 +314,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
   check_joints(scene, blocks, of_blocks);
   check_joint_laws(scene, diagnostics);
   check_compressive_strengths(scene, diagnostics);
+  check_roughness(scene, diagnostics);
   check_factor_search(scene, diagnostics);
   check_names(scene, scene.water, "water", diagnostics);
   check_water(scene, diagnostics, of_blocks);

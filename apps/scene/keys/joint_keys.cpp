@@ -12,6 +12,7 @@ using JointLaw = SceneJointLaw;
 using Contact = SceneContact;
 using Joint = SceneJoint;
 using Energy = FractureEnergy;
+using Roughness = SceneRoughness;
 
 bool has_tension(const Energy& energy) {
   return energy.tension > 0.0;
@@ -37,6 +38,24 @@ const Keys<Energy> energy_table(
 
 const Keys<Energy>& energy_keys() {
   return energy_table;
+}
+
+const Keys<Roughness> roughness_table(
+    "",
+    {number("jrc", &Roughness::jrc, range::above_zero_to_20, "deg",
+            "joint roughness coefficient JRC of a wall of this size. The shear strength is that of Barton "
+            "and Bandis, p tan(`friction_angle` + JRC log10(JCS / p)) at the pressure p, at an angle of at "
+            "most 70 degrees; `friction_angle` is that of the worn joint "
+            "([rule](../../../mechanics/notes/rough_joints.md))")
+         .required_always(),
+     number("jcs", &Roughness::jcs, range::positive, "Pa", "compressive strength JCS of the walls")
+         .required_always(),
+     number("length", &Roughness::length, range::positive, "m",
+            "of the wall: roughness wears with slip beyond that of the peak, (L/500) (JRC/L)^0.33. None: it "
+            "does not wear")});
+
+const Keys<Roughness>& roughness_keys() {
+  return roughness_table;
 }
 
 /// Stiffness and strength. @tparam Struct SceneJointLaw or SceneJoint, whose values may be left out
@@ -93,7 +112,8 @@ std::vector<Key<Struct>> keys_of_failure() {
           .otherwise(
               "chosen: 0, or `\"springs\"` where steps resolve a given stiffness or the vibrations of a "
               "block, and with `damping`"),
-      table<energy_keys>("fracture_energy", &Struct::fracture_energy, "")};
+      table<energy_keys>("fracture_energy", &Struct::fracture_energy, ""),
+      table<roughness_keys>("roughness", &Struct::roughness, "")};
 }
 
 std::vector<Key<Contact>> of_law(std::vector<Key<JointLaw>> keys) {

@@ -22,6 +22,7 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
   law.dilation_angle = joint.dilation_angle.value_or(law.dilation_angle);
   law.damping = joint.damping.value_or(law.damping);
   if (joint.restitution) law.restitution = joint.restitution;
+  if (joint.roughness) law.roughness = joint.roughness;
   if (joint.fracture_energy) law.fracture_energy = joint.fracture_energy;
   if (!joint.tied && !joint.tie) return;
   law.tied = joint.tied.value_or(false);

@@ -24,6 +24,13 @@ struct SceneBond {
   std::optional<FractureEnergy> fracture_energy;  ///< J/m^2, both > 0; empty: strength is lost at once
 };
 
+/// Roughness of a joint, whose friction_angle is that of the worn joint.
+struct SceneRoughness {
+  double jrc = 0.0;              ///< degrees, > 0, at most 20; required
+  double jcs = 0.0;              ///< Pa, > 0; required
+  std::optional<double> length;  ///< m, > 0: of the wall; empty: roughness does not wear
+};
+
 /// The law between the faces of two blocks. Default strengths are zero: a joint's strength must be stated.
 struct SceneJointLaw {
   std::optional<double> normal_stiffness;  ///< Pa/m (area springs) or N/m (point springs), > 0; empty: auto
@@ -39,6 +46,7 @@ struct SceneJointLaw {
   /// Outer optional empty: chosen by the program. Inner optional empty: as "springs" rebound. 0 to 1
   std::optional<std::optional<double>> restitution;
   std::optional<FractureEnergy> fracture_energy;  ///< J/m^2
+  std::optional<SceneRoughness> roughness;        ///< empty: plane, Coulomb friction
   bool tied = false;            ///< bonded without limit over the common face; a key of [[joint]] only
   std::optional<SceneTie> tie;  ///< bonded up to a strength, which cohesion and tensile_strength hold too
 
@@ -81,6 +89,7 @@ struct SceneJoint {
   std::optional<double> dilation_angle, damping;
   std::optional<std::optional<double>> restitution;  ///< as of SceneJointLaw
   std::optional<FractureEnergy> fracture_energy;
+  std::optional<SceneRoughness> roughness;
   std::optional<bool> tied;
   std::optional<SceneTie> tie;  ///< `tied` given as a table
 };

@@ -33,6 +33,7 @@ inline constexpr NumberRange not_negative = {0.0, no_limit, true, false, "a numb
 inline constexpr NumberRange positive_to_one = {0.0, 1.0, false, true, "a number > 0 and <= 1"};
 inline constexpr NumberRange zero_to_one = {0.0, 1.0, true, true, "a number from 0 to 1"};
 inline constexpr NumberRange zero_to_below_half = {0.0, 0.5, true, false, "a number >= 0 and < 0.5"};
+inline constexpr NumberRange above_zero_to_20 = {0.0, 20.0, false, true, "a number > 0 and <= 20"};
 inline constexpr NumberRange zero_to_45 = {0.0, 45.0, true, true, "a number of degrees from 0 to 45"};
 inline constexpr NumberRange zero_to_90 = {0.0, 90.0, true, true, "a number of degrees from 0 to 90"};
 inline constexpr NumberRange zero_to_below_90 = {0.0, 90.0, true, false, "a number of degrees >= 0 and < 90"};

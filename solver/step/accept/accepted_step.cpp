@@ -40,7 +40,7 @@ void tally_friction(const std::vector<PointResponse>& acted, const std::vector<P
   for (std::size_t k = 0; k < acted.size(); ++k) {
     if (acted[k].state != ContactState::sliding) continue;
     const Eigen::Vector3d& force = acted[k].force;
-    tally.due += step * (laws[k].cohesion + laws[k].friction * std::max(force[0], 0.0));
+    tally.due += step * laws[k].shear_strength(force[0]);
     tally.acted += step * force.tail<2>().norm();
   }
 }

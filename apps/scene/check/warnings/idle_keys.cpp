@@ -120,7 +120,7 @@ void warn_of_ties(const Scene& scene, IdleKeys& keys) {
     for (const char* key :
          {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength",
           "compressive_strength", "friction_angle_residual", "cohesion_residual", "tensile_strength_residual",
-          "dilation_angle", "damping", "restitution", "fracture_energy"})
+          "dilation_angle", "damping", "restitution", "fracture_energy", "roughness"})
       keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
   }
 }

@@ -1,0 +1,33 @@
+// Friction of rough joints (mechanics/contact/rough_joint.hpp) in limit analysis, whose cones have one coefficient.
+//
+// A joint gets the friction  tau(sigma) / sigma  that its points have under their pressure, weighted by their normal forces:
+// forces of the programme `rest` (cone_program.hpp) under the loads give the pressure, and depend on friction in turn. From the
+// friction of worn joints on, which is the least, a few passes agree. A point of a joint of n points of area A has the pressure
+// n N / A. Where the pressure at a limit is another one, as loads are multiplied, the search is repeated with that
+// (apps/run/answers/limit_run).
+#pragma once
+
+#include <map>
+
+#include "solver/limit/limit_trial.hpp"
+#include "solver/limit/rigid_model.hpp"
+
+namespace ashlar {
+
+[[nodiscard]] bool has_rough_joints(const RigidModel& model);
+
+/// Coefficient of friction by pair of blocks.
+using PairFriction = std::map<PairKey, double>;
+
+/// Sets the friction of rough joints under loads and strengths of these factors. Joints that wear have that of their
+/// roughness as their strength, and that of the worn joint as their residual strength.
+/// @param model of kind `limit`, with its loads. @return the largest relative change of a coefficient
+double set_rough_friction(RigidModel& model, const LimitFactors& factors);
+
+/// The friction that set_rough_friction() has set.
+[[nodiscard]] PairFriction rough_friction(const RigidModel& model);
+
+/// Sets friction that another model of the same blocks has.
+void set_rough_friction(RigidModel& model, const PairFriction& friction);
+
+}  // namespace ashlar

@@ -1,0 +1,78 @@
+#include "solver/limit/rough_friction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "unit/solver/statics/sample_limits.hpp"
+
+namespace ashlar::rough_friction_test {
+namespace {
+
+using test_support::g;
+using test_support::joint;
+using test_support::rock;
+using test_support::tangent_of;
+using Scene = test_support::LimitScene;
+
+constexpr double worn = 28.0, jrc = 10.0, jcs = 5e7;
+
+/// Two blocks of 2 x 1 m, 0.1 and 0.4 m high, on one another and on the ground.
+Scene stack() {
+  Scene scene;
+  scene.law = joint(tangent_of(worn));
+  scene.law.residual = ResidualStrength{scene.law.friction, 0.0, 0.0};
+  scene.law.roughness = {jrc, jcs, scene.law.friction};
+  scene.add("lower", Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 0.4})));
+  scene.add("upper", Polyhedron(make_box({-1, -0.5, 0.4}, {1, 0.5, 0.5})));
+  scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {2, 2, 0})));
+  return scene;
+}
+
+/// tan(phi) of Barton and Choubey.
+double friction_at(double pressure) {
+  return tangent_of(worn + jrc * std::log10(jcs / pressure));
+}
+
+TEST(RoughFriction, EachJointHasThatOfItsPressure) {
+  const RigidModel model = stack().build().rigid_model(0.0);
+  const PairFriction friction = rough_friction(model);
+  ASSERT_EQ(friction.size(), 2U);
+  EXPECT_NEAR(friction.at({0, 1}) / friction_at(rock.density * g * 0.1), 1.0, 1e-4);
+  EXPECT_NEAR(friction.at({0, 2}) / friction_at(rock.density * g * 0.5), 1.0, 1e-4);
+  EXPECT_FALSE(loses_strength(model));
+}
+
+TEST(RoughFriction, AnInclinedBlockHasThatOfThePressureAcrossItsJoint) {
+  // The joint slides below its friction: forces that do not balance have the pressure of the motion.
+  for (const double degrees : {30.0, 60.0}) {
+    Scene scene = stack();
+    const double turn = degrees * std::numbers::pi / 180.0;
+    scene.gravity = {g * std::sin(turn), 0.0, -g * std::cos(turn)};
+    const PairFriction friction = rough_friction(scene.build().rigid_model(0.0));
+    EXPECT_NEAR(friction.at({0, 1}) / friction_at(rock.density * g * 0.1 * std::cos(turn)), 1.0, 0.01);
+  }
+}
+
+TEST(RoughFriction, AJointThatWearsKeepsTheFrictionOfTheWornJoint) {
+  Scene scene = stack();
+  scene.law.roughness.peak_slip = 1e-3;
+  RigidModel model = scene.build().rigid_model(0.0);
+  EXPECT_TRUE(loses_strength(model));
+  keep_residual_strength(model);
+  EXPECT_FALSE(has_rough_joints(model));
+  for (const RigidPoint& point : model.points) EXPECT_NEAR(point.law.friction, tangent_of(worn), 1e-15);
+}
+
+TEST(RoughFriction, LoadsThatPressHaveLessFriction) {
+  // 20 times the weight of the upper block on its top.
+  Scene scene = stack();
+  scene.blocks[1].loads.push_back({Vector3(0, 0, 0.5), false, {0, 0, -20.0 * rock.density * g * 0.2}, {}});
+  RigidModel model = scene.build().rigid_model(0.0, {false, true, false});
+  EXPECT_NEAR(rough_friction(model).at({0, 1}) / friction_at(21.0 * rock.density * g * 0.1), 1.0, 1e-3);
+  EXPECT_GT(set_rough_friction(model, LimitFactors{1.0, 0.0}), 0.01);
+  EXPECT_NEAR(rough_friction(model).at({0, 1}) / friction_at(rock.density * g * 0.1), 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace ashlar::rough_friction_test
