@@ -119,10 +119,15 @@ void set_mean_normal(const PointLaw& law, const PointResponse& start, double sta
   mean.tangent(0, 0) = 0.5 * end.tangent(0, 0);
   const bool start_open = start.state == ContactState::open;
   const bool end_open = end.state == ContactState::open;
-  if (start_open == end_open || law.tension > 0.0) return;
+  if (start_open == end_open || (law.tension > 0.0 && start_open)) return;
   // E(g) = kn <-g>^2 / 2; the force is -(E1 - E0)/(g1 - g0). The gaps differ since their signs do.
   const double difference = end_gap - start_gap;
-  if (start_open) {
+  if (law.tension > 0.0) {
+    // A bond parts at the gap T A/kn, and what its spring holds there is lost.
+    const double parting = law.tension / law.normal_stiffness;
+    mean.force[0] = 0.5 * law.normal_stiffness * (start_gap * start_gap - parting * parting) / difference;
+    mean.tangent(0, 0) = mean.force[0] / difference;
+  } else if (start_open) {
     mean.force[0] = -0.5 * law.normal_stiffness * end_gap * end_gap / difference;
     mean.tangent(0, 0) =
         law.normal_stiffness * end_gap * (0.5 * end_gap - start_gap) / (difference * difference);

@@ -156,10 +156,8 @@ TEST_P(AllLaws, AStepGainsNoEnergy) {
     const double taken = -step.mean.force.dot(history.to - history.from);  // by the joint
     const double gained = step.end.energy() - history.start.energy();
     const double scale = std::abs(taken) + history.start.energy() + step.end.energy();
-    // A bond acts with half of its force until it fails, whatever its spring held.
-    if (history.law.tension == 0.0 || !history.parts(step))
-      EXPECT_GE(taken - gained, -1e-12 * scale)
-          << "from " << history.from.transpose() << " to " << history.to.transpose();
+    EXPECT_GE(taken - gained, -1e-12 * scale)
+        << "from " << history.from.transpose() << " to " << history.to.transpose();
     history.accept(step);
   }
 }
