@@ -8,10 +8,7 @@
 #include <vector>
 
 #include "solver/system/address_space.hpp"
-
-// Exported by OpenBLAS; null with another implementation.
-extern "C" void* blas_memory_alloc(int position) __attribute__((weak));
-extern "C" void blas_memory_free(void* buffer) __attribute__((weak));
+#include "solver/system/openblas.hpp"
 
 namespace ashlar {
 namespace {
@@ -37,8 +34,9 @@ void map_one_more(std::size_t mapped) {
   std::vector<void*> buffers;
   buffers.reserve(mapped + 1);
   if (!has_room_for(asked_bytes)) throw BlasMemoryError();
-  while (buffers.size() <= mapped) buffers.push_back(blas_memory_alloc(0));
-  for (void* buffer : buffers) blas_memory_free(buffer);
+  const OpenBlas blas = openblas();
+  while (buffers.size() <= mapped) buffers.push_back(blas.memory_alloc(0));
+  for (void* buffer : buffers) blas.memory_free(buffer);
 }
 
 /// One for each thread that calls BLAS.
@@ -50,7 +48,7 @@ class CountedThread {
     --threads().counted;
   }
   void count() {
-    if (counted_ || blas_memory_alloc == nullptr || blas_memory_free == nullptr) return;
+    if (counted_ || openblas().memory_alloc == nullptr || openblas().memory_free == nullptr) return;
     Threads& all = threads();
     const std::unique_lock lock(all.mutex);
     if (all.counted == all.mapped) {

@@ -2,20 +2,19 @@
 
 #include <mutex>
 
-extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
-extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
+#include "solver/system/openblas.hpp"
 
 namespace ashlar {
 
 void keep_blas_to_this_thread() {
   static std::once_flag once;
   std::call_once(once, [] {
-    if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+    if (const auto set = openblas().set_num_threads; set != nullptr) set(1);
   });
   // The limit of nested teams is one of the calling thread.
   thread_local bool limited = false;
   if (limited) return;
-  if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);
+  if (const auto set = openblas().set_max_active_levels; set != nullptr) set(0);
   limited = true;
 }
 
