@@ -13,8 +13,8 @@
 
 int main(int count, char** arguments) {
   ashlar::prepare_for_missing_memory();
-  ashlar::open_closed_streams();
-  const std::vector<std::string> words(arguments + 1, arguments + count);
+  ashlar::prepare_streams();
+  const std::vector<std::string> words = ashlar::command_words(count, arguments);
 #ifdef ASHLAR_MPI
   if (ashlar::launched_as_rank()) return ashlar::run_as_rank(words);
 #endif

@@ -14,6 +14,7 @@
 #include "apps/program/number_option.hpp"
 #include "apps/results/system/input_lines.hpp"
 #include "apps/results/system/interrupt_guard.hpp"
+#include "apps/results/system/process_copy.hpp"
 #include "apps/results/text/json_text.hpp"
 
 namespace ashlar {
@@ -43,6 +44,12 @@ void serve(McpSession& session, Workspace& workspace, const std::ostream& out) {
 }  // namespace
 
 int mcp_command(const McpOptions& options, std::ostream& out, std::ostream& err) {
+  if (!copies_have_streams()) {
+    err << "ashlar: error: mcp runs calls in copies of its process, which Windows does not have; run it on "
+           "Linux, or in "
+           "the Windows Subsystem for Linux\n";
+    return exit_status::failed;
+  }
   const InterruptGuard guard;
   std::unique_ptr<Workspace> workspace;
   try {

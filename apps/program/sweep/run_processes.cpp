@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <new>
 #include <optional>
 #include <ostream>
@@ -71,16 +72,16 @@ class Processes {
   }
 
   void start(std::size_t run) {
-    std::optional<OutputFile> log;
+    std::shared_ptr<OutputFile> log;
     try {
-      log.emplace(runs_[run].log, OutputFile::Start::empty);
+      log = std::make_shared<OutputFile>(runs_[run].log, OutputFile::Start::empty);
     } catch (const std::runtime_error& fault) {
       err_ << fmt::format("ashlar: error: {}; a plain file is written there\n", fault_text(fault));
       note(run, exit_status::of(fault));
       return;
     }
     try {
-      children_.push_back({ProcessCopy([&] {
+      children_.push_back({ProcessCopy([this, run, log] {
                              OutputStreamBuffer buffer(std::move(*log));
                              std::ostream stream(&buffer);
                              return logged(runs_[run], stream);

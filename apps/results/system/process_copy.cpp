@@ -55,6 +55,10 @@ bool replace_streams(const CopyStreams& streams) {
 
 }  // namespace
 
+bool copies_have_streams() {
+  return true;
+}
+
 ProcessCopy::ProcessCopy(const std::function<int()>& run, const std::optional<CopyStreams>& streams,
                          CopyEnd end) {
   if (streams) (void)std::fflush(nullptr);  // or the copy would write it once more

@@ -1,5 +1,5 @@
-// Parts of the program in processes of their own: copies of this one (fork), which begin with all of its data. A system
-// without copies (Windows) has to start the program again, with what the function needs as arguments.
+// Parts of the program in processes of their own: copies of this one (fork), which begin with all of its data. Windows has
+// no copies: there they are threads, which cannot be ended from outside and have the standard streams of the process.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,9 @@ namespace ashlar {
 struct CopyStreams {
   std::filesystem::path out, err;
 };
+
+/// False on Windows, where a function runs in a thread of this process instead.
+[[nodiscard]] bool copies_have_streams();
 
 /// Fate of a copy when this process has ended.
 enum class CopyEnd {

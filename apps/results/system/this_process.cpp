@@ -55,7 +55,11 @@ void end_at_once(int exit_status) noexcept {
   ::_exit(exit_status);
 }
 
-void open_closed_streams() {
+std::vector<std::string> command_words(int count, char** arguments) {
+  return {arguments + 1, arguments + count};
+}
+
+void prepare_streams() {
   for (const int stream : {0, 1, 2})
     if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", O_RDWR);
 }
