@@ -106,7 +106,8 @@ Json to_json(const PlotSeries& series, const Plot& plot) {
 std::vector<std::string> interpreters() {
   if (const char* chosen = std::getenv("ASHLAR_PYTHON")) return {chosen};
   std::vector<std::string> found;
-  if (const auto first = find_program("python3")) found.push_back(first->string());
+  for (const char* name : {"python3", "python"})  // the second is its name on Windows
+    if (const auto first = find_program(name); first && found.empty()) found.push_back(first->string());
   constexpr const char* of_system = "/usr/bin/python3";
   if (is_executable(of_system)) found.emplace_back(of_system);
   return found;
@@ -117,8 +118,8 @@ std::string failure_of(const std::string& interpreter, const std::string& script
                        const std::vector<std::filesystem::path>& files, const ScratchFolder& scratch) {
   constexpr std::chrono::seconds limit(60);
   // Isolated: neither modules beside the script nor those that variables name are imported.
-  std::vector<std::string> command = {interpreter, "-I", std::filesystem::absolute(script)};
-  command.insert(command.end(), files.begin(), files.end());
+  std::vector<std::string> command = {interpreter, "-I", std::filesystem::absolute(script).string()};
+  for (const std::filesystem::path& file : files) command.push_back(file.string());
   const std::filesystem::path errors = scratch.path() / "errors";
   try {
     const std::optional<int> status = run_program(command, scratch.path() / "out", errors, limit);

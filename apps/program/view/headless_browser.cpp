@@ -22,9 +22,13 @@ namespace ashlar {
 namespace {
 
 std::string file_url(const std::filesystem::path& path) {
-  std::string url = "file://";
-  for (const char c : std::filesystem::absolute(path).string()) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/-_.~", c) != nullptr;
+  const std::filesystem::path file = std::filesystem::absolute(path);
+  // Windows: a drive follows a third slash, and a server's name the first two.
+  const std::string root = file.root_name().string();
+  std::string url = root.empty() ? "file://" : root.ends_with(':') ? "file:///" : "file:";
+  for (const char c : file.generic_string()) {
+    const bool plain =
+        std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/-_.~:", c) != nullptr;
     url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
   return url;
@@ -62,7 +66,7 @@ constexpr std::string_view no_sandbox_there = "No usable sandbox";
 
 std::optional<std::filesystem::path> find_browser() {
   if (const char* chosen = std::getenv("ASHLAR_BROWSER")) return chosen;
-  for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome", "chrome", "msedge"}) {
     if (auto found = find_program(name)) return found;
   }
   return std::nullopt;
