@@ -104,6 +104,10 @@ bool is_fault_of_device(const std::error_code& reason) {
          std::any_of(faults.begin(), faults.end(), [&](std::errc fault) { return reason == fault; });
 }
 
+void rename_over(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::filesystem::rename(from, to);
+}
+
 void sync_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;

@@ -56,6 +56,10 @@ class OutputFile {
 /// a user may have asked wrongly: names, permissions.
 [[nodiscard]] bool is_fault_of_device(const std::error_code& reason);
 
+/// Gives a file another name, in place of a file that has it. Where the system refuses that while another program has the
+/// file open (Windows), it is tried again for two seconds. @throws std::filesystem::filesystem_error
+void rename_over(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Waits until the names in a folder are on the disk; empty: the present one. No effect on file systems that cannot.
 /// @throws std::system_error "cannot write folder <folder>: <reason>"
 void sync_folder(const std::filesystem::path& folder);

@@ -52,7 +52,7 @@ void write_file_atomically(const std::filesystem::path& path, Durability durabil
     write(file);
     if (durability == Durability::power) file.sync();
     file.close();
-    std::filesystem::rename(temporary, path);
+    rename_over(temporary, path);
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);

@@ -96,9 +96,9 @@ Hdf5File::Hdf5File(std::filesystem::path path, Access access)
   H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   H5Pset_obj_track_times(creation, false);
   if (access == Access::create)
-    file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, opening);
+    file_ = H5Fcreate(path_.string().c_str(), H5F_ACC_TRUNC, creation, opening);
   else
-    file_ = H5Fopen(path_.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, opening);
+    file_ = H5Fopen(path_.string().c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, opening);
   if (file_ < 0) fail(access == Access::read ? "read" : "open");
 }
 

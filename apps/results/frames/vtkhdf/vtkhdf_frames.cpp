@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/results/system/output_file.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -21,7 +23,7 @@ void remove_vtkhdf_files(const std::filesystem::path& folder) {
 VtkhdfFrames::VtkhdfFrames(const std::filesystem::path& folder, const std::vector<std::string>& series)
     : folder_(folder), file_(folder / vtkhdf_name), next_(folder / next_name) {
   create_vtkhdf(next_, series);
-  std::filesystem::rename(next_, file_);
+  rename_over(next_, file_);
   remember_file();
 }
 
@@ -31,7 +33,7 @@ VtkhdfFrames::VtkhdfFrames(const std::filesystem::path& folder, std::vector<Fram
   std::filesystem::remove(next_);
   std::filesystem::copy_file(file_, next_);
   cut_vtkhdf(next_, frames_.size());
-  std::filesystem::rename(next_, file_);
+  rename_over(next_, file_);
   remember_file();
 }
 
@@ -67,7 +69,7 @@ void VtkhdfFrames::exchange_names() {
   std::filesystem::remove(between, error);
   // File systems without a second name for a file: the next frame copies the whole file.
   std::filesystem::create_hard_link(file_, between, error);
-  std::filesystem::rename(next_, file_);
+  rename_over(next_, file_);
   if (error) return;
   std::filesystem::rename(between, next_, error);
   follows_ = !error;
