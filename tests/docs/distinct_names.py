@@ -6,7 +6,8 @@
 In the sources of a library a name in an unnamed namespace is one thing. Functions of the same name, those of headers and static ones too, differ in the
 types of their parameters; types and aliases of the same name are the same alias, and a type of a header of any library has a name of
 its own. A test has a namespace of its own, which ends
-with the name of its file: helpers of tests are called cube and rock in many files.
+with the name of its file: helpers of tests are called cube and rock in many files. Sources in folders system/windows are not
+joined, and stand for others.
 """
 import collections
 import pathlib
@@ -155,7 +156,7 @@ def faults_of(project):
     for path in sorted(project.glob("**/*.cpp")):
         place = path.relative_to(project).as_posix()
         library = next((name for name in LIBRARIES if place.startswith(name + "/")), None)
-        if library:
+        if library and "/system/windows/" not in place:
             of_library[library][place] = path.read_text(encoding="utf-8")
         elif any(place.startswith(name + "/") for name in TESTS) and path.stem.endswith("_test"):
             if not re.search(rf"^namespace ashlar(::\w+)*::{path.stem} \{{$", path.read_text(encoding="utf-8"), re.M):
