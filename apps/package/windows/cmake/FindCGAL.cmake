@@ -1,0 +1,12 @@
+# Headers of CGAL and what they need, with the option that CGAL's own files give to GCC.
+find_path(CGAL_INCLUDE_DIR CGAL/version.h)
+find_library(CGAL_MPFR_LIBRARY mpfr)
+find_library(CGAL_GMP_LIBRARY gmp)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CGAL DEFAULT_MSG CGAL_INCLUDE_DIR CGAL_MPFR_LIBRARY CGAL_GMP_LIBRARY)
+if(CGAL_FOUND AND NOT TARGET CGAL::CGAL)
+  add_library(CGAL::CGAL INTERFACE IMPORTED)
+  target_compile_definitions(CGAL::CGAL INTERFACE CGAL_USE_GMPXX=1)
+  target_compile_options(CGAL::CGAL INTERFACE -frounding-math)
+  target_link_libraries(CGAL::CGAL INTERFACE "${CGAL_MPFR_LIBRARY}" "${CGAL_GMP_LIBRARY}")
+endif()
