@@ -8,6 +8,7 @@ usage='use: tests/run.sh [OPTION]...
   --geometry     also the tests of geometry, readers of meshes among them, with the address and undefined
                  sanitizers
   --sanitizers   also build and test with the address and undefined sanitizers, then with the thread sanitizer
+  --windows      also build the program for Windows, and test it in Wine; skipped where its compiler or Wine is missing
   --all          all of these
   --only PRESET  build and test this preset of CMakePresets.json instead of release'
 set -euo pipefail
@@ -18,6 +19,7 @@ presets=(release)
 format=no
 lint=no
 geometry=no
+windows=no
 while (($#)); do
   case $1 in
     --format) format=yes ;;
@@ -25,6 +27,7 @@ while (($#)); do
     --clang) presets+=(clang) ;;
     --geometry) geometry=yes ;;
     --sanitizers) presets+=(asan tsan) ;;
+    --windows) windows=yes ;;
     --all) format=yes lint=yes presets+=(clang asan tsan) ;;
     --only) presets=("${2:?--only needs the name of a preset}"); shift ;;
     --help) echo "$usage"; exit 0 ;;
@@ -79,6 +82,21 @@ check_geometry() {
   build/asan/tests/geometry_tests --gtest_brief=1 --gtest_filter='-*FiftyThousandPairs*:*MillionVariants*'
 }
 
+# The program for Windows beside that of the release build, which it is compared with.
+check_windows() {
+  say 'windows'
+  local tool
+  for tool in x86_64-w64-mingw32-g++-posix wine; do
+    command -v "$tool" >/dev/null || { printf 'skipped: there is no %s (apps/docs/howto/windows.md)\n' "$tool"; return 0; }
+  done
+  ASHLAR_JOBS=$jobs bash apps/package/windows/make_windows.sh --tests
+  local test
+  for test in oracle_tests oracle_comparison_tests geometry_tests mechanics_tests; do
+    find build/windows/tests -name "$test.exe" -exec env WINEDEBUG=-all wine {} --gtest_brief=1 \;
+  done
+  /usr/bin/python3 tests/windows/windows_test.py build/windows/apps/ashlar.exe build/release/apps/ashlar
+}
+
 bash apps/install_packages.sh
 jobs=$(bash apps/build_jobs.sh)
 if command -v ccache >/dev/null; then
@@ -93,5 +111,6 @@ for preset in "${presets[@]}"; do
   [[ $preset != release ]] || check_mpi
 done
 [[ $geometry == no ]] || check_geometry
+[[ $windows == no ]] || check_windows
 [[ $lint == no ]] || run_clang_tidy
 say "passed: ${presets[*]}$([[ $format == no ]] || echo ' format')$([[ $lint == no ]] || echo ' clang-tidy')"
