@@ -207,11 +207,11 @@ std::optional<int> begin(Run& run, std::shared_ptr<const FolderClaim> claim, con
 }
 
 /// Does not assemble text: there may be no memory for it.
-void tell_missing_memory(const std::bad_alloc& error, const Run& run, const std::filesystem::path& folder,
+void tell_missing_memory(const std::bad_alloc& error, const Run& run, const std::string& folder,
                          std::ostream& err) {
   err << "ashlar: error: after step " << run.simulation().steps() << ": " << missing_memory(error);
   if (run.saved())
-    err << "; the state saved last is in " << folder.native() << ", the same command with --resume goes on\n";
+    err << "; the state saved last is in " << folder << ", the same command with --resume goes on\n";
   else
     err << "; nothing was saved\n";
 }
@@ -220,6 +220,7 @@ void tell_missing_memory(const std::bad_alloc& error, const Run& run, const std:
 int go_to_end(PreparedRun& prepared, const std::filesystem::path& folder, RunProgress& progress,
               const RunOptions& options, std::ostream& out, std::ostream& err, const RunRanks* ranks) {
   Run& run = *prepared.run;
+  const std::string folder_name = folder.string();  // for a message when there is no memory
   try {
     try {
       while (run.step()) {
@@ -236,7 +237,7 @@ int go_to_end(PreparedRun& prepared, const std::filesystem::path& folder, RunPro
   } catch (const std::bad_alloc& error) {
     progress.finish();
     if (are_several(ranks)) throw;
-    tell_missing_memory(error, run, folder, err);
+    tell_missing_memory(error, run, folder_name, err);
     return exit_status::failed;
   }
 }

@@ -42,7 +42,7 @@ ToolAnswer asked_values(const Json& summary, const Json& keys) {
 
 ToolStart tell_the_summary(Workspace& workspace, const Json& arguments) {
   const std::filesystem::path folder = workspace.folder().results(arguments["folder"].get<std::string>());
-  const std::filesystem::path file = workspace.folder().file(folder / "summary.json");
+  const std::filesystem::path file = workspace.folder().file((folder / "summary.json").string());
   Json summary = naming_the_file(
       file, [&] { return parse_json(whole_file(workspace.folder().root() / file, most_input_bytes)); });
   if (arguments.contains("keys")) return asked_values(summary, arguments["keys"]);
@@ -95,7 +95,7 @@ std::vector<std::size_t> columns_asked(const HistoryTable& table, const Json& na
 ToolStart tell_the_history(Workspace& workspace, const Json& arguments) {
   constexpr std::size_t usual_rows = 50, most_rows = 100'000;
   const std::filesystem::path folder = workspace.folder().results(arguments["folder"].get<std::string>());
-  const std::filesystem::path file = workspace.folder().file(folder / "history.csv");
+  const std::filesystem::path file = workspace.folder().file((folder / "history.csv").string());
   const HistoryTable all = read_history(workspace.folder().root() / file, most_rows);
   if (all.rows.empty()) throw ToolRefusal("the history has no rows yet; run_status tells how far the run is");
   Json spans = Json::array();
@@ -138,7 +138,7 @@ ToolStart draw_a_picture(Workspace& workspace, const Json& arguments) {
   std::filesystem::path name = workspace.scratch_name();
   name += ".png";
   const auto picture = std::make_shared<ScratchFile>(name);
-  std::vector<std::string> words = {"picture", folder, "--out=" + picture->path().string(),
+  std::vector<std::string> words = {"picture", folder.string(), "--out=" + picture->path().string(),
                                     "--size=" + arguments.value("size", std::string("640x480"))};
   for (const char* option : {"frame", "from", "color", "zoom", "scale", "at", "hide", "section", "contacts",
                              "joints", "vectors"}) {
@@ -164,13 +164,13 @@ ToolStart draw_a_picture(Workspace& workspace, const Json& arguments) {
 
 ToolStart write_the_page(Workspace& workspace, const Json& arguments) {
   const std::filesystem::path folder = workspace.folder().results(arguments["folder"].get<std::string>());
-  return command_call(
-      workspace, {command_line_work({"view", folder}), true, [folder](const CommandOutcome& outcome) {
-                    if (outcome.status != exit_status::done) return command_error(outcome);
-                    return ToolAnswer{
-                        fmt::format("written: {}, a page for any browser", (folder / "view.html").string()),
-                        nullptr, "", false};
-                  }});
+  return command_call(workspace, {command_line_work({"view", folder.string()}), true,
+                                  [folder](const CommandOutcome& outcome) {
+                                    if (outcome.status != exit_status::done) return command_error(outcome);
+                                    return ToolAnswer{fmt::format("written: {}, a page for any browser",
+                                                                  (folder / "view.html").string()),
+                                                      nullptr, "", false};
+                                  }});
 }
 
 Json picture_arguments(const Json& folder) {

@@ -43,8 +43,8 @@ Json limits_exceeded(const Json& report, const SceneLimits& limits) {
 }
 
 ToolStart check_a_scene(Workspace& workspace, const Json& arguments) {
-  std::vector<std::string> words = {"check", workspace.folder().file(arguments["scene"].get<std::string>()),
-                                    "--json"};
+  std::vector<std::string> words = {
+      "check", workspace.folder().file(arguments["scene"].get<std::string>()).string(), "--json"};
   add_overrides(words, arguments);
   return command_call(workspace,
                       {command_line_work(words), true, [&workspace](const CommandOutcome& outcome) {
@@ -72,8 +72,8 @@ ToolAnswer chosen_blocks(Json report, const std::string& pattern, std::size_t fi
 
 ToolStart list_blocks(Workspace& workspace, const Json& arguments) {
   constexpr std::size_t usual = 50;
-  std::vector<std::string> words = {"blocks", workspace.folder().file(arguments["scene"].get<std::string>()),
-                                    "--json"};
+  std::vector<std::string> words = {
+      "blocks", workspace.folder().file(arguments["scene"].get<std::string>()).string(), "--json"};
   if (arguments.contains("removable"))
     words.push_back("--removable=" + arguments["removable"].get<std::string>());
   if (arguments.contains("stage")) words.push_back("--stage=" + arguments["stage"].get<std::string>());
@@ -89,8 +89,9 @@ ToolStart list_blocks(Workspace& workspace, const Json& arguments) {
 }
 
 ToolStart report_contacts(Workspace& workspace, const Json& arguments) {
-  std::vector<std::string> words = {"contacts", workspace.folder().file(arguments["a"].get<std::string>()),
-                                    workspace.folder().file(arguments["b"].get<std::string>()), "--json"};
+  std::vector<std::string> words = {
+      "contacts", workspace.folder().file(arguments["a"].get<std::string>()).string(),
+      workspace.folder().file(arguments["b"].get<std::string>()).string(), "--json"};
   for (const char* option : {"distance", "angle"})
     if (arguments.contains(option))
       words.push_back(fmt::format("--{}={}", option, json_text(arguments[option])));
