@@ -96,23 +96,28 @@ build_openblas() {
   cp libopenblas*-r*.a "$root/lib/libopenblas.a"
 }
 
-build_metis() {
-  unpack metis
-  by_cmake metis . -DGKLIB_PATH="$root/sources/metis/GKlib"
-}
-
 # use: compiled ARCHIVE FLAG... -- SOURCE...
 compiled() {
-  local archive=$1 flags=() objects=() source
+  local archive=$1 flags=() source object
   shift
   while [[ $1 != -- ]]; do flags+=("$1"); shift; done
   shift
   mkdir -p "$root/sources/$archive-objects"
   for source in "$@"; do
-    local object=$root/sources/$archive-objects/$(basename "$source" .c).o
+    object=$root/sources/$archive-objects/${source//\//_}.o
     printf '%s\0' -c "$source" -o "$object"
   done | xargs -0 -n 4 -P "$jobs" $triple-gcc-posix -O2 "${flags[@]}"
   $triple-gcc-ar-posix rcs "$root/lib/lib$archive.a" "$root/sources/$archive-objects"/*.o
+}
+
+# Its random numbers are its own: those of the C library of Windows have 15 bits.
+build_metis() {
+  unpack metis
+  cd "$root/sources/metis"
+  sed -i '/sys\/resource.h/d' GKlib/gk_arch.h
+  compiled metis -w -Iinclude -Ilibmetis -IGKlib -DUSE_GKREGEX -DUSE_GKRAND -DNDEBUG -DNDEBUG2 -- libmetis/*.c \
+    GKlib/{blas,error,memory,mcore,random,sort,util,timers,pqueue,string}.c
+  cp include/metis.h "$root/include"
 }
 
 # CHOLMOD for indices of 32 bits, with the orderings that it calls.
