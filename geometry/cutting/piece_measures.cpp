@@ -106,7 +106,7 @@ double PieceMeasures::volume(const std::vector<std::pair<int, bool>>& faces) {
   const FixedPoint& origin = fixed(complex_.face(faces.front().first).points.front());
   Integer widest = 0, triangles = 0;
   for (const auto& [index, below] : faces) {
-    triangles += complex_.face(index).points.size();
+    triangles += static_cast<unsigned long>(complex_.face(index).points.size());
     for (const int point : complex_.face(index).points)
       for (std::size_t axis = 0; axis < 3; ++axis)
         widest = std::max(widest, Integer(abs(Integer(fixed(point)[axis] - origin[axis]))));
@@ -126,7 +126,7 @@ double PieceMeasures::area(const std::vector<int>& faces) {
   Integer widest = 0, triangles = 0;
   for (const int index : faces) {
     const std::vector<int>& loop = complex_.face(index).points;
-    triangles += loop.size();
+    triangles += static_cast<unsigned long>(loop.size());
     for (const int point : loop)
       for (std::size_t axis = 0; axis < 3; ++axis)
         widest = std::max(widest, Integer(abs(Integer(fixed(point)[axis] - fixed(loop[0])[axis]))));

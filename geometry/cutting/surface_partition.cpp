@@ -182,7 +182,7 @@ class SurfacePartition {
         sum[axis] += cut_off;
       }
     }
-    ExactPoint mean{sum[0], sum[1], sum[2], Integer(points.size()) << bits, {}};
+    ExactPoint mean{sum[0], sum[1], sum[2], Integer(static_cast<unsigned long>(points.size())) << bits, {}};
     mean.rounded = round_to_nearest(mean.rational());
     return mean;
   }
