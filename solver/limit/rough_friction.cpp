@@ -10,7 +10,7 @@ namespace {
 
 /// Passes, and the relative change of a coefficient at which they end: well below the tolerance of a factor.
 constexpr int most_passes = 20;
-constexpr double settled = 1e-4;
+constexpr double converged = 1e-4;
 
 bool is_rough(const RigidPoint& point) {
   return !point.bar && point.law.roughness.given();
@@ -84,7 +84,7 @@ double set_rough_friction(RigidModel& model, const LimitFactors& factors) {
     double change = 0.0;
     for (const auto& [pair, value] : friction)
       change = std::max(change, std::abs(value / last.at(pair) - 1.0));
-    if (change < settled) break;
+    if (change < converged) break;
   }
   double change = 0.0;
   for (const auto& [pair, value] : rough_friction(model))
