@@ -12,8 +12,7 @@ void check_table(const Scene& scene, const JointTablePath& table, Diagnostics& d
   if (!law.roughness || law.tied) return;
   const auto exclude = [&](const std::string& key, bool has) {
     if (!has) return;
-    for (const std::string& place :
-         {table.path + "." + key, table.path + ".roughness", std::string("contact.roughness")}) {
+    for (const std::string& place : {table.path + "." + key, table.path + ".roughness"}) {
       if (!scene.places.contains(place)) continue;
       diagnostics.error(
           scene.places.key(place),

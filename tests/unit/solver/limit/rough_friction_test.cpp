@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "unit/solver/statics/sample_limits.hpp"
@@ -15,7 +16,7 @@ using test_support::rock;
 using test_support::tangent_of;
 using Scene = test_support::LimitScene;
 
-constexpr double worn = 28.0, jrc = 10.0, jcs = 5e7;
+constexpr double worn = 28.0, jrc = 8.0, jcs = 5e7;
 
 /// Two blocks of 2 x 1 m, 0.1 and 0.4 m high, on one another and on the ground.
 Scene stack() {
@@ -29,9 +30,9 @@ Scene stack() {
   return scene;
 }
 
-/// tan(phi) of Barton and Choubey.
+/// tan(phi) of Barton and Choubey, whose angle is at most 70 degrees.
 double friction_at(double pressure) {
-  return tangent_of(worn + jrc * std::log10(jcs / pressure));
+  return tangent_of(std::min(70.0, worn + jrc * std::log10(jcs / pressure)));
 }
 
 TEST(RoughFriction, EachJointHasThatOfItsPressure) {
