@@ -11,21 +11,20 @@
 namespace ashlar {
 namespace {
 
-/// Cells and points of one block.
+/// Cells and points of one block, which follow one another.
 struct Range {
   int block;
   std::size_t first_cell, cells;
   int first_point, points;
 };
 
+/// In the order of numbers.
 std::vector<Range> ranges_of(const UnstructuredGrid& grid) {
   const auto& block = required_values<std::int32_t>(grid.cell_data, "block", 1);
   std::vector<Range> ranges;
   int start = 0, first_point = 0;
   for (std::size_t c = 0; c < grid.offsets.size(); ++c) {
     if (ranges.empty() || ranges.back().block != block[c]) {
-      if (!ranges.empty() && block[c] < ranges.back().block)
-        throw std::runtime_error("the cells are not in the order of blocks");
       if (!ranges.empty()) first_point = ranges.back().first_point + ranges.back().points;
       ranges.push_back({block[c], c, 0, first_point, 0});
     }
@@ -36,6 +35,11 @@ std::vector<Range> ranges_of(const UnstructuredGrid& grid) {
       ranges.back().points = std::max(ranges.back().points, point + 1);
     }
   }
+  std::stable_sort(ranges.begin(), ranges.end(),
+                   [](const Range& x, const Range& y) { return x.block < y.block; });
+  const auto same = [](const Range& x, const Range& y) { return x.block == y.block; };
+  if (std::adjacent_find(ranges.begin(), ranges.end(), same) != ranges.end())
+    throw std::runtime_error("the cells of a block do not follow one another");
   return ranges;
 }
 
@@ -124,7 +128,8 @@ UnstructuredGrid BlockUnion::whole() const {
 UnstructuredGrid BlockUnion::completed(UnstructuredGrid frame) const {
   if (parts_.empty()) return frame;
   const std::vector<Range> ranges = ranges_of(frame);
-  if (ranges.size() == parts_.size()) return frame;
+  const auto in_file = [](const Range& x, const Range& y) { return x.first_cell < y.first_cell; };
+  if (ranges.size() == parts_.size() && std::is_sorted(ranges.begin(), ranges.end(), in_file)) return frame;
   UnstructuredGrid grid;
   auto there = ranges.begin();
   for (const auto& [block, part] : parts_) {

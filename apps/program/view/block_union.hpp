@@ -1,4 +1,4 @@
-// Converts frames of a staged analysis to frames with the same cells: absent blocks get no place.
+// Converts frames of a run whose blocks come, go or crack to frames with the same cells: absent blocks get no place.
 #pragma once
 
 #include <map>
@@ -10,12 +10,11 @@ namespace ashlar {
 /// The blocks of some frames.
 class BlockUnion {
  public:
-  /// Adds blocks that were in no earlier frame. @param frame with cells by block (the cell array "block") and no
-  /// Adds blocks that were in no earlier frame. @param frame with cells by block (the cell array "block") and no
-  /// point shared by blocks
+  /// Adds blocks that were in no earlier frame. @param frame with cells block by block (the cell array "block"), in any order of
+  /// numbers, and no point shared by blocks
   void add(const UnstructuredGrid& frame);
 
-  /// All blocks, each as in its first frame.
+  /// All blocks by number, each as in its first frame.
   [[nodiscard]] UnstructuredGrid whole() const;
   /// Adds missing blocks to a frame: their points and point data are nan. @param frame one of those added; if none
   /// was, it is returned unchanged

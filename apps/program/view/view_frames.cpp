@@ -195,13 +195,10 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
   move_to_origin(first, origin_);
   block_names_ = first.block_names;
   std::optional<std::vector<std::int32_t>> fixed;
-  if (has_stages(folder)) {
-    for (std::size_t k = 0; k < count_; ++k) {
-      const UnstructuredGrid grid = grid_of(blocks_, k);
-      naming_the_file(stored_->file(blocks_, k), [&] { all_blocks_.add(grid); });
-    }
-    first = all_blocks_.whole();
-  }
+  // A cracked block has the name of its first part.
+  const std::vector<std::string> last_names = stored_->read(blocks_, count_ - 1).block_names;
+  if (!block_names_.empty() && last_names != block_names_) page_blocks_.emplace(last_names);
+  if (page_blocks_ || has_stages(folder)) first = all_blocks();
   naming_the_file(path, [&] {
     fixed = fixed_blocks_in(first);
     curved_ = std::make_unique<CurvedCells>(first);
@@ -212,9 +209,20 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
   surface_.fixed = fixed ? *std::move(fixed) : blocks_that_never_move();
 }
 
+UnstructuredGrid ViewFrames::all_blocks() {
+  for (std::size_t k = 0; k < count_; ++k)
+    naming_the_file(stored_->file(blocks_, k), [&] {
+      if (page_blocks_) page_blocks_->add(stored_->read(blocks_, k).block_names);
+      all_blocks_.add(grid_of(blocks_, k));
+    });
+  if (page_blocks_) block_names_ = page_blocks_->names();
+  return all_blocks_.whole();
+}
+
 UnstructuredGrid ViewFrames::grid_of(const std::string& series, std::size_t frame) const {
   UnstructuredGrid grid = stored_->read(series, frame);
   move_to_origin(grid, origin_);
+  if (page_blocks_) page_blocks_->renumber(grid, frame);
   return grid;
 }
 

@@ -11,6 +11,7 @@
 
 #include "apps/program/view/block_union.hpp"
 #include "apps/program/view/curved_cells.hpp"
+#include "apps/program/view/page_blocks.hpp"
 #include "apps/results/frames/stored_frames.hpp"
 
 namespace ashlar {
@@ -75,7 +76,10 @@ class ViewFrames {
   /// False, too, of a series that versions before did not write.
   [[nodiscard]] bool written(const std::string& series) const;
 
-  /// A frame of a series relative to the origin.
+  /// Adds the blocks of all frames, of which some come, go or crack. @return all of them
+  UnstructuredGrid all_blocks();
+
+  /// A frame of a series relative to the origin, with the numbers of blocks of the page.
   [[nodiscard]] UnstructuredGrid grid_of(const std::string& series, std::size_t frame) const;
 
   ViewPoints points_;
@@ -83,7 +87,8 @@ class ViewFrames {
   std::unique_ptr<const StoredFrames> stored_;
   std::string blocks_ = "blocks";  ///< series with the surfaces of blocks
   std::size_t count_ = 0;
-  BlockUnion all_blocks_;  ///< empty unless blocks are added or removed
+  BlockUnion all_blocks_;                  ///< empty unless blocks are added, removed or cracked
+  std::optional<PageBlocks> page_blocks_;  ///< of a run with cracks
   std::unique_ptr<const CurvedCells> curved_;
   ViewSurface surface_;
   std::vector<std::string> block_names_;

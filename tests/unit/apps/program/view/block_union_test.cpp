@@ -56,8 +56,19 @@ TEST(BlockUnion, BlocksThatAreNotThereHaveNoPlace) {
 TEST(BlockUnion, FramesOfARunWithoutStagesStayAsTheyAre) {
   const UnstructuredGrid grid = frame({0, 1});
   EXPECT_EQ(BlockUnion().completed(grid).points, grid.points);
-  UnstructuredGrid disordered = frame({1, 0});
-  EXPECT_THROW(BlockUnion().add(disordered), std::runtime_error);
+  EXPECT_THROW(BlockUnion().add(frame({1, 0, 1})), std::runtime_error);
+}
+
+TEST(BlockUnion, BlocksAreInTheOrderOfTheirNumbers) {
+  BlockUnion blocks;
+  blocks.add(frame({1, 0}));
+  blocks.add(frame({2, 1}, 0.25));
+  EXPECT_EQ(blocks.whole().points[0], Vector3(0, 0, 0));
+  const UnstructuredGrid full = blocks.completed(frame({2, 1}, 0.25));
+  EXPECT_EQ(full.connectivity, blocks.whole().connectivity);
+  EXPECT_TRUE(std::isnan(full.points[0].x()));
+  EXPECT_EQ(full.points[3], Vector3(1.25, 0, 0));
+  EXPECT_EQ(full.points[6], Vector3(2.25, 0, 0));
 }
 
 }  // namespace
