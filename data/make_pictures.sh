@@ -35,6 +35,7 @@ wall            wall                --frame 75 --from 0.6,-1,0.3 --contacts none
 rockfall        rockfall            --frame 45 --from 0.3,-1,0.4 --color velocity --frame-range --contacts none --zoom 1.8 --at 7,0,4.5
 masonry_bridge  masonry_bridge      --from front --color stone --force-chain --contacts none
 dome            dome                --from 0.6,-1,0.7 --color pressure --contacts none
+lintel          lintel              --from 0.15,-1,0.2 --color stone --contacts none --scale 3 --at 0,0.15,0.05 --zoom 1.25
 facade          facade              --from 0.3,-1,0.2 --contacts none
 drums           drums               --frame 57 --from 0.4,-1,0.2
 hertz           hertz               --from 0.2,-0.8,-0.7 --color pressure --hide table --zoom 2.2 --at 0,0,0.09 --contacts none
