@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geometry/index.hpp"
 
@@ -11,6 +12,11 @@ namespace {
 /// Passes, and the relative change of a coefficient at which they end: well below the tolerance of a factor.
 constexpr int most_passes = 20;
 constexpr double converged = 1e-4;
+/// Divisions of the triangles of a joint in four, for its pressure.
+constexpr int divisions = 3;
+/// Iterations for that, the relative error of its resultant, and the least share of a step.
+constexpr int most_iterations = 100;
+constexpr double same_resultant = 1e-8, least_share = 1e-6;
 
 bool is_rough(const RigidPoint& point) {
   return !point.bar && point.law.roughness.given();
@@ -22,36 +28,134 @@ void set_friction(RigidPoint& point, double friction) {
   if (point.law.residual && !point.law.roughness.wears()) point.law.residual->friction = friction;
 }
 
-/// Area of the joints of each pair, and how many points bear its pressure.
-struct PairArea {
-  double area = 0.0;
-  double points = 0.0;
+/// A part of a joint: its place along the tangents of the joint, from a point of it.
+struct JointPart {
+  Eigen::Vector2d place;  ///< m
+  double area;            ///< m^2
 };
-std::map<PairKey, PairArea> areas_of(const RigidModel& model) {
-  std::map<PairKey, PairArea> areas;
-  for (const RigidPoint& point : model.areas) areas[key_of(point.blocks)].area += point.area;
-  // Parts beside the corners transmit cohesion and tension alone.
-  for (const RigidPoint& point : model.points)
-    if (is_rough(point) && point.area == 0.0) areas[key_of(point.blocks)].points += 1.0;
-  return areas;
+/// Two faces in contact.
+struct FacesInContact {
+  std::vector<JointPart> parts;
+  Vector3 origin;
+  Eigen::Matrix<double, 2, 3> tangents;
+  double normal = 0.0;                               ///< N
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< N m, of it along both tangents
+  Roughness roughness;
+
+  [[nodiscard]] Eigen::Vector2d place_of(const Vector3& at) const { return tangents * (at - origin); }
+};
+using FaceKey = std::tuple<PairKey, int, int>;
+FaceKey faces_of(const RigidPoint& point) {
+  return {key_of(point.blocks), point.contact.face_a, point.contact.face_b};
+}
+
+/// Divides a triangle so many times in four.
+void add_parts(FacesInContact& faces, const std::array<Eigen::Vector2d, 3>& corner, int divisions) {
+  if (divisions == 0) {
+    const Eigen::Vector2d a = corner[1] - corner[0], b = corner[2] - corner[0];
+    faces.parts.push_back(
+        {(corner[0] + corner[1] + corner[2]) / 3.0, 0.5 * std::abs(a[0] * b[1] - a[1] * b[0])});
+    return;
+  }
+  const Eigen::Vector2d ab = 0.5 * (corner[0] + corner[1]), bc = 0.5 * (corner[1] + corner[2]),
+                        ca = 0.5 * (corner[2] + corner[0]);
+  for (const auto& part :
+       {std::array{corner[0], ab, ca}, {ab, corner[1], bc}, {ca, bc, corner[2]}, {ab, bc, ca}})
+    add_parts(faces, part, divisions - 1);
+}
+
+/// Rough joints with the forces of an answer.
+std::map<FaceKey, FacesInContact> loaded_faces(const RigidModel& model,
+                                               const std::vector<Eigen::Vector3d>& force) {
+  std::map<FaceKey, FacesInContact> joints;
+  for (const RigidPoint& area : model.areas) {
+    if (!is_rough(area)) continue;
+    const auto [joint, is_new] = joints.try_emplace(faces_of(area));
+    FacesInContact& faces = joint->second;
+    if (is_new) {
+      faces.origin = area.place;
+      faces.tangents = area.frame.bottomRows<2>();
+      faces.roughness = area.law.roughness;
+    }
+    const auto& corner = area.part->corners;
+    add_parts(faces, {faces.place_of(corner[0]), faces.place_of(corner[1]), faces.place_of(corner[2])},
+              divisions);
+  }
+  for (std::size_t k = 0; k < model.points.size(); ++k) {
+    const double normal = force[k][0] * model.units.force();
+    const auto joint = joints.find(faces_of(model.points[k]));
+    if (!is_rough(model.points[k]) || joint == joints.end() || !(normal > 0.0)) continue;
+    joint->second.normal += normal;
+    joint->second.moment += normal * joint->second.place_of(model.points[k].place);
+  }
+  return joints;
+}
+
+/// Pressure that is linear where it is not zero, with the resultant of a joint: Newton's method for the least of the convex
+/// function sum A max(0, a + b . x)^2 / 2 - N a - M . b. @return by part, Pa; empty: the resultant is too near an edge
+std::vector<double> linear_pressure(const FacesInContact& faces) {
+  double area = 0.0;
+  for (const JointPart& part : faces.parts) area += part.area;
+  const double length = std::sqrt(area), mean = faces.normal / area;
+  const Eigen::Vector3d wanted(1.0, faces.moment[0] / faces.normal / length,
+                               faces.moment[1] / faces.normal / length);
+  Eigen::Vector3d plane(1.0, 0.0, 0.0);
+  const auto at = [&](const JointPart& part) {
+    return Eigen::Vector3d(1.0, part.place[0] / length, part.place[1] / length);
+  };
+  const auto value = [&](const Eigen::Vector3d& of) {
+    double sum = -wanted.dot(of);
+    for (const JointPart& part : faces.parts)
+      sum += 0.5 * part.area / area * std::pow(std::max(0.0, of.dot(at(part))), 2);
+    return sum;
+  };
+  for (int n = 0; n < most_iterations; ++n) {
+    Eigen::Vector3d gradient = -wanted;
+    Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
+    for (const JointPart& part : faces.parts) {
+      const Eigen::Vector3d place = at(part);
+      const double pressure = plane.dot(place);
+      if (!(pressure > 0.0)) continue;
+      gradient += part.area / area * pressure * place;
+      slope += part.area / area * place * place.transpose();
+    }
+    if (gradient.norm() < same_resultant) {
+      std::vector<double> pressure;
+      for (const JointPart& part : faces.parts) pressure.push_back(mean * std::max(0.0, plane.dot(at(part))));
+      return pressure;
+    }
+    const Eigen::Vector3d step = -slope.completeOrthogonalDecomposition().solve(gradient);
+    double share = 1.0;
+    for (const double before = value(plane); share > least_share && !(value(plane + share * step) < before);
+         share *= 0.5) {
+    }
+    plane += share * step;
+  }
+  return {};
+}
+
+/// Force of friction that a joint resists, N.
+double resisted(const FacesInContact& faces) {
+  const double worn = faces.roughness.worn * faces.normal;
+  const std::vector<double> pressure = linear_pressure(faces);
+  if (pressure.empty()) return faces.roughness.share * worn;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < pressure.size(); ++k) {
+    if (!(pressure[k] > 0.0)) continue;
+    const double area = faces.parts[k].area;
+    sum += rough_bound(point_roughness(faces.roughness, area, 0.0), pressure[k] * area).value;
+  }
+  return sum;
 }
 
 /// Friction under the forces of an answer.
 PairFriction friction_under(const RigidModel& model, const std::vector<Eigen::Vector3d>& force) {
   std::map<PairKey, std::array<double, 2>> sums;  // of friction forces and normal forces
-  const std::map<PairKey, PairArea> areas = areas_of(model);
-  for (std::size_t k = 0; k < model.points.size(); ++k) {
-    const RigidPoint& point = model.points[k];
-    const double normal = force[k][0] * model.units.force();
-    if (!is_rough(point) || point.area > 0.0 || !(normal > 0.0)) continue;
-    const PairArea& whole = areas.at(key_of(point.blocks));
-    Roughness roughness = point.law.roughness;
-    roughness.share = 1.0;
-    const PointRoughness rough = point_roughness(roughness, whole.area / whole.points, 0.0);
-    auto& [friction, pressing] = sums[key_of(point.blocks)];
-    friction += point.law.roughness.share *
-                (rough.given() ? rough_bound(rough, normal).value : roughness.worn * normal);
-    pressing += normal;
+  for (const auto& [key, faces] : loaded_faces(model, force)) {
+    if (!(faces.normal > 0.0)) continue;
+    auto& [friction, pressing] = sums[std::get<0>(key)];
+    friction += resisted(faces);
+    pressing += faces.normal;
   }
   PairFriction result;
   for (const auto& [pair, sum] : sums) result[pair] = sum[0] / sum[1];

@@ -1,9 +1,10 @@
 // Friction of rough joints (mechanics/contact/rough_joint.hpp) in limit analysis, whose cones have one coefficient.
 //
-// A joint gets the friction  tau(sigma) / sigma  that its points have under their pressure, weighted by their normal forces:
-// forces of the programme `rest` (cone_program.hpp) under the loads give the pressure, and depend on friction in turn. From the
-// friction of worn joints on, which is the least, a few passes agree. A point of a joint of n points of area A has the pressure
-// n N / A. Where the pressure at a limit is another one, as loads are multiplied, the search is repeated with that
+// A joint gets the friction  integral tau(sigma) dA / N  of a pressure that is linear where it is not zero, as between rigid faces
+// on springs, with the resultant of its forces: tau is concave, and eccentric forces have less friction. Forces of the programme
+// `rest` (cone_program.hpp) under the loads give the resultant, and depend on friction in turn. From the friction of worn joints
+// on, which is the least, a few passes agree. Resultants at an edge have that, too. Where the pressure at a limit is another one,
+// as loads are multiplied, the search is repeated with that
 // (apps/run/answers/limit_run).
 #pragma once
 

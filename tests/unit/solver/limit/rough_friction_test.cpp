@@ -45,14 +45,39 @@ TEST(RoughFriction, EachJointHasThatOfItsPressure) {
 }
 
 TEST(RoughFriction, AnInclinedBlockHasThatOfThePressureAcrossItsJoint) {
-  // The joint slides below its friction: forces that do not balance have the pressure of the motion.
-  for (const double degrees : {30.0, 60.0}) {
+  for (const double degrees : {30.0, 45.0}) {
     Scene scene = stack();
     const double turn = degrees * std::numbers::pi / 180.0;
     scene.gravity = {g * std::sin(turn), 0.0, -g * std::cos(turn)};
     const PairFriction friction = rough_friction(scene.build().rigid_model(0.0));
     EXPECT_NEAR(friction.at({0, 1}) / friction_at(rock.density * g * 0.1 * std::cos(turn)), 1.0, 0.01);
   }
+}
+
+TEST(RoughFriction, EccentricForcesHaveLessFriction) {
+  // A block 2 m long and 0.5 m high that leans by 45 degrees: its weight acts 0.25 m from the middle. The pressure is linear, from 1.75
+  // to 0.25 of its mean; and 1.2 m high, 0.6 m from the middle: from 10/3 of the mean to 0 over 1.2 m.
+  const auto friction_of = [](double height) {
+    Scene scene;
+    scene.law = joint(tangent_of(worn));
+    scene.law.residual = ResidualStrength{scene.law.friction, 0.0, 0.0};
+    scene.law.roughness = {jrc, jcs, scene.law.friction};
+    scene.add("block", Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, height})));
+    scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {2, 2, 0})));
+    scene.gravity = {std::sqrt(0.5) * g, 0.0, -std::sqrt(0.5) * g};
+    return rough_friction(scene.build().rigid_model(0.0)).at({0, 1});
+  };
+  const auto mean_friction = [](double height, double least, double most, double length) {
+    const double pressure = std::sqrt(0.5) * rock.density * g * height;
+    double sum = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+      const double share = least + (most - least) * (k + 0.5) / 1000.0;
+      sum += share * friction_at(share * pressure) * 0.5 * length / 1000.0;
+    }
+    return sum;
+  };
+  EXPECT_NEAR(friction_of(0.5) / mean_friction(0.5, 0.25, 1.75, 2.0), 1.0, 2e-3);
+  EXPECT_NEAR(friction_of(1.2) / mean_friction(1.2, 0.0, 10.0 / 3.0, 1.2), 1.0, 5e-3);
 }
 
 TEST(RoughFriction, AJointThatWearsKeepsTheFrictionOfTheWornJoint) {
