@@ -116,7 +116,7 @@ build_metis() {
   cd "$root/sources/metis"
   sed -i '/sys\/resource.h/d' GKlib/gk_arch.h
   compiled metis -w -Iinclude -Ilibmetis -IGKlib -DUSE_GKREGEX -DUSE_GKRAND -DNDEBUG -DNDEBUG2 -- libmetis/*.c \
-    GKlib/{blas,error,memory,mcore,random,sort,util,timers,pqueue,string}.c
+    GKlib/{blas,error,gkregex,memory,mcore,random,sort,util,timers,pqueue,string}.c
   cp include/metis.h "$root/include"
 }
 
