@@ -107,12 +107,14 @@ void Run::start_record() {
 }
 
 void Run::advance() {
+  const bool cracks_are_due = stages_->cracks_are_due();
   if (stages_->next() == RunStages::Next::next_stage && !begin_next_stage()) return;
   if (stages_->next() == RunStages::Next::first_step) {
     stages_->enter();
     if (!record_->tell(&RunObserver::stage_begins, *this, end_)) return;
   }
   if (answer().shows_states()) return show_state();
+  if (cracks_are_due && !divide_cracked()) return;
   if (is_static(scene().analysis)) return take_iteration();
   take_step();
 }

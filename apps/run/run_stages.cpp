@@ -95,6 +95,11 @@ void RunStages::resume(const RunCheckpoint& checkpoint) {
   finished_ = checkpoint.stages;
   place_ = {static_cast<int>(finished_.size()) + 1, checkpoint.folder.progress.elapsed,
             checkpoint.folder.progress.origin};
+  cracks_are_due_ = cracks_ && simulation().time() > 0.0;
+}
+
+bool RunStages::cracks_are_due() {
+  return std::exchange(cracks_are_due_, false);
 }
 
 bool RunStages::divide_cracked() {

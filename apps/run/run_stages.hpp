@@ -52,6 +52,9 @@ class RunStages {
   void resume(const RunCheckpoint& checkpoint);
   /// Divides blocks that have cracked, in a static analysis at the balance of a load level. @return true if there are any. @throws std::length_error as CrackedBlocks::divide
   bool divide_cracked();
+  /// True once after resume(): a checkpoint is written after a step, and before the blocks that it has brought to their strength
+  /// are divided.
+  [[nodiscard]] bool cracks_are_due();
   /// Empty if no block cracks.
   [[nodiscard]] const CrackRecord& cracks() const;
   /// Displacements in results count from the present state. @param measures of the whole scene
@@ -90,6 +93,7 @@ class RunStages {
   StagePlace place_;
   std::vector<FinishedStage> finished_;
   std::unique_ptr<CrackedBlocks> cracks_;  ///< null: no block of the scene cracks
+  bool cracks_are_due_ = false;
 };
 
 }  // namespace ashlar
