@@ -15,8 +15,8 @@ constexpr double converged = 1e-4;
 /// Divisions of the triangles of a joint in four, for its pressure.
 constexpr int divisions = 3;
 /// Iterations for that, the relative error of its resultant, and the least share of a step.
-constexpr int most_iterations = 100;
-constexpr double same_resultant = 1e-8, least_share = 1e-6;
+constexpr int most_pressure_iterations = 100;
+constexpr double same_resultant = 1e-8, least_step = 1e-6;
 
 bool is_rough(const RigidPoint& point) {
   return !point.bar && point.law.roughness.given();
@@ -109,7 +109,7 @@ std::vector<double> linear_pressure(const FacesInContact& faces) {
       sum += 0.5 * part.area / area * std::pow(std::max(0.0, of.dot(at(part))), 2);
     return sum;
   };
-  for (int n = 0; n < most_iterations; ++n) {
+  for (int n = 0; n < most_pressure_iterations; ++n) {
     Eigen::Vector3d gradient = -wanted;
     Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
     for (const JointPart& part : faces.parts) {
@@ -126,7 +126,7 @@ std::vector<double> linear_pressure(const FacesInContact& faces) {
     }
     const Eigen::Vector3d step = -slope.completeOrthogonalDecomposition().solve(gradient);
     double share = 1.0;
-    for (const double before = value(plane); share > least_share && !(value(plane + share * step) < before);
+    for (const double before = value(plane); share > least_step && !(value(plane + share * step) < before);
          share *= 0.5) {
     }
     plane += share * step;

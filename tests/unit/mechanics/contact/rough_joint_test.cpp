@@ -64,8 +64,14 @@ TEST(RoughJoint, FactorsDivideTheStrength) {
 TEST(RoughJoint, RoughnessWearsWithSlip) {
   // A wall of 1 m: (1/500) 10^0.33 m.
   EXPECT_NEAR(peak_slip_of(10.0, 1.0), 0.002 * std::pow(10.0, 0.33), 1e-15);
-  const std::array<std::array<double, 2>, 8> table = {
-      {{0.0, 1.0}, {1.0, 1.0}, {2.0, 0.85}, {4.0, 0.7}, {10.0, 0.5}, {25.0, 0.4}, {100.0, 0.0}, {std::sqrt(8.0), 0.775}}};
+  const std::array<std::array<double, 2>, 8> table = {{{0.0, 1.0},
+                                                       {1.0, 1.0},
+                                                       {2.0, 0.85},
+                                                       {4.0, 0.7},
+                                                       {10.0, 0.5},
+                                                       {25.0, 0.4},
+                                                       {100.0, 0.0},
+                                                       {std::sqrt(8.0), 0.775}}};
   for (const auto& [slip, left] : table) EXPECT_NEAR(roughness_left(slip / 100.0), left, 1e-12) << slip;
   Roughness roughness = rough_law().roughness;
   EXPECT_EQ(wear_after(roughness, 0.25, 1.0), 0.25);
@@ -101,7 +107,8 @@ TEST(RoughJoint, TangentsAreDerivatives) {
     const auto force = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
       return -point_response(point, at[0], at.tail<2>()).force;
     };
-    test_support::expect_derivative(force, place, end.tangent + end.coupling.force * end.coupling.by.transpose(),
+    test_support::expect_derivative(force, place,
+                                    end.tangent + end.coupling.force * end.coupling.by.transpose(),
                                     1e-4 * std::abs(gap), 1e-4);
   }
 }
