@@ -16,7 +16,7 @@ constexpr double converged = 1e-4;
 constexpr int divisions = 3;
 /// Iterations for that, the relative error of its resultant, and the least share of a step.
 constexpr int most_pressure_iterations = 100;
-constexpr double same_resultant = 1e-8, least_step = 1e-6;
+constexpr double same_resultant = 1e-8, least_step_share = 1e-6;
 
 bool is_rough(const RigidPoint& point) {
   return !point.bar && point.law.roughness.given();
@@ -126,8 +126,8 @@ std::vector<double> linear_pressure(const FacesInContact& faces) {
     }
     const Eigen::Vector3d step = -slope.completeOrthogonalDecomposition().solve(gradient);
     double share = 1.0;
-    for (const double before = value(plane); share > least_step && !(value(plane + share * step) < before);
-         share *= 0.5) {
+    for (const double before = value(plane);
+         share > least_step_share && !(value(plane + share * step) < before); share *= 0.5) {
     }
     plane += share * step;
   }
