@@ -51,6 +51,9 @@ std::string text_of(const RoughSlope& of, const std::string& method) {
   return text.str();
 }
 
+/// Blocks of statics deform: their joints have less pressure in the middle than the linear one of rigid blocks.
+constexpr double deformation = 0.02;
+
 TEST_F(RoughRun, StaticAnalysesAgreeWithLimitAnalysis) {
   std::mt19937_64 random(20261130);
   const auto between = [&](double low, double high) {
@@ -68,8 +71,8 @@ TEST_F(RoughRun, StaticAnalysesAgreeWithLimitAnalysis) {
                            2500.0 * std::pow(10.0, between(0.0, 2.0))};
     const auto limit = factor_of(text_of(slope, "limit"), "limit" + std::to_string(k));
     const auto statics = factor_of(text_of(slope, "elastic"), "statics" + std::to_string(k));
-    EXPECT_LE(limit[0], 1.005 * statics[1]) << k;
-    EXPECT_GE(limit[1], 0.98 * statics[0]) << k;
+    EXPECT_LE(limit[0], (1.0 + deformation) * statics[1]) << k;
+    EXPECT_GE(limit[1], (1.0 - deformation) * statics[0]) << k;
   }
 }
 
