@@ -50,8 +50,8 @@ FaceKey faces_of(const RigidPoint& point) {
 }
 
 /// Divides a triangle so many times in four.
-void add_parts(FacesInContact& faces, const std::array<Eigen::Vector2d, 3>& corner, int divisions) {
-  if (divisions == 0) {
+void add_parts(FacesInContact& faces, const std::array<Eigen::Vector2d, 3>& corner, int times) {
+  if (times == 0) {
     const Eigen::Vector2d a = corner[1] - corner[0], b = corner[2] - corner[0];
     faces.parts.push_back(
         {(corner[0] + corner[1] + corner[2]) / 3.0, 0.5 * std::abs(a[0] * b[1] - a[1] * b[0])});
@@ -61,7 +61,7 @@ void add_parts(FacesInContact& faces, const std::array<Eigen::Vector2d, 3>& corn
                         ca = 0.5 * (corner[2] + corner[0]);
   for (const auto& part :
        {std::array{corner[0], ab, ca}, {ab, corner[1], bc}, {ca, bc, corner[2]}, {ab, bc, ca}})
-    add_parts(faces, part, divisions - 1);
+    add_parts(faces, part, times - 1);
 }
 
 /// Rough joints with the forces of an answer.
