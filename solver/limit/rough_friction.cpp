@@ -162,11 +162,11 @@ PairFriction friction_under(const RigidModel& model, const std::vector<Eigen::Ve
   return result;
 }
 
-std::vector<Eigen::Vector3d> forces_of(const RigidModel& model, const LimitFactors& factors) {
+std::vector<Eigen::Vector3d> forces_of(const RigidModel& model, const LimitFactors& factors,
+                                       const std::vector<bool>& reduced) {
   ConeProgram program = program_of(model, 1, FrictionAt::uniform_pressure);
-  for (std::size_t k = 0; k < model.points.size(); ++k)
-    program.set_strength(
-        k, strength_of(model, model.points[k], is_rough(model.points[k]) ? factors.strength : 1.0));
+  for (std::size_t k = 0; k < reduced.size(); ++k)
+    if (reduced[k]) program.set_strength(k, strength_of(model, model.points[k], factors.strength));
   ConeQuestion asked;
   asked.load = model.steady;
   for (std::size_t b = 0; b < asked.load.size(); ++b) asked.load[b] += factors.load * model.multiplied[b];
@@ -179,11 +179,11 @@ bool has_rough_joints(const RigidModel& model) {
   return std::any_of(model.points.begin(), model.points.end(), is_rough);
 }
 
-double set_rough_friction(RigidModel& model, const LimitFactors& factors) {
+double set_rough_friction(RigidModel& model, const LimitFactors& factors, const std::vector<bool>& reduced) {
   const PairFriction before = rough_friction(model);
   for (int pass = 0; pass < most_passes; ++pass) {
     const PairFriction last = rough_friction(model);
-    const PairFriction friction = friction_under(model, forces_of(model, factors));
+    const PairFriction friction = friction_under(model, forces_of(model, factors, reduced));
     set_rough_friction(model, friction);
     double change = 0.0;
     for (const auto& [pair, value] : friction)

@@ -22,8 +22,10 @@ using PairFriction = std::map<PairKey, double>;
 
 /// Sets the friction of rough joints under loads and strengths of these factors. Joints that wear have that of their
 /// roughness as their strength, and that of the worn joint as their residual strength.
-/// @param model of kind `limit`, with its loads. @return the largest relative change of a coefficient
-double set_rough_friction(RigidModel& model, const LimitFactors& factors);
+/// @param model of kind `limit`, with its loads. @param reduced by point: its strength is divided by the factor; empty: none
+/// @return the largest relative change of a coefficient
+double set_rough_friction(RigidModel& model, const LimitFactors& factors,
+                          const std::vector<bool>& reduced = {});
 
 /// The friction that set_rough_friction() has set.
 [[nodiscard]] PairFriction rough_friction(const RigidModel& model);

@@ -12,9 +12,9 @@ which leaves its base when |a_g| > g tan(a), and keeps 1 - 3/2 sin^2(a) of its a
 integrated by Runge and Kutta's method with steps of 1 ms, cut where theta changes its sign. Its edges do not sink in, so that the
 program has multipliers: on springs of automatic stiffness the block leaves its base at 1 % less.
 
-At each scale, 97 % of the records have to overturn both blocks, or neither, or as many as overturn the integrator's block at that scale
-and at 0.2 % less or more alike, less 2 %: a block that rocks for long forgets how it began, and of 200 records 90 to 97 % do. The
-medians of both fragility curves may differ by 3 %.
+At each scale, 97 % of the records have to overturn both blocks, or neither; the medians of both fragility curves may differ by 3 %.
+A block that rocks for long forgets how it began: of 200 records 90 to 97 % overturn the integrator's block at a scale and at 0.2 % less
+or more alike. This share is printed beside.
 """
 import argparse
 import csv
@@ -188,7 +188,7 @@ def main():
         equal = sum(a == b for a, b in zip(known, found)) / len(here)
         own = min(sum(a == overturns(records[row["record"]], near * scale) for a, row in zip(known, here)) / len(here)
                   for near in (0.998, 1.002))
-        good = good and equal >= min(0.97, own - 0.02)
+        good = good and equal >= 0.97
         print(f"scale {scale:g}: {sum(found)} of {len(here)} overturn, {sum(known)} by the integrator; {100.0 * equal:.1f} % equal; "
               f"the integrator with itself at 0.2 % less or more: {100.0 * own:.1f} %")
     if result["median"] is None:

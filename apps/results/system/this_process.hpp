@@ -27,7 +27,7 @@ namespace ashlar {
 void write_to_errors(std::string_view text) noexcept;
 /// Ends this process without destructors and without writing what streams hold.
 [[noreturn]] void end_at_once(int exit_status) noexcept;
-/// What the caller has written after the program's name, in UTF-8. @param count,arguments of main
+/// Words of the command line after the program's name, in UTF-8. @param count,arguments of main
 [[nodiscard]] std::vector<std::string> command_words(int count, char** arguments);
 /// Opens standard streams that the caller has closed, on nothing. Otherwise their numbers would be those of the first
 /// opened files, and messages would be written into these. On Windows streams and files then pass all bytes as they

@@ -179,17 +179,12 @@ const LimitMotion& signed_motion(const LimitFindings& findings) {
 
 namespace {
 
-LimitFindings limits_of(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
-                        const std::function<bool()>& goes_on) {
+/// @param reduced by point: its strength is divided by a factor of safety
+LimitFindings limits_of(const Scene& scene, RigidModel model, const std::vector<bool>& reduced,
+                        const Simulation& simulation, int threads, const std::function<bool()>& goes_on) {
   LimitFindings findings;
   findings.has_residual_strength = model.has_residual_strength;
-  const JointSelection reduced(scene, scene.analysis.safety.of);
-  LimitAnalysis analysis(
-      std::move(model),
-      [&](int a, int b) {
-        return reduced.contains(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-      },
-      threads);
+  LimitAnalysis analysis(std::move(model), reduced, threads);
   const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
   const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
   const auto motion_of_path = [&](const LimitBracket& bracket) {
@@ -224,14 +219,22 @@ constexpr double same_friction = 1e-3;
 
 LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
                           const std::function<bool()>& goes_on) {
+  const JointSelection selection(scene, scene.analysis.safety.of);
+  const std::vector<bool> reduced = reduced_points(model, [&](int a, int b) {
+    return selection.contains(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+  });
   for (int n = 1;; ++n) {
-    LimitFindings findings = limits_of(scene, model, simulation, threads, goes_on);
+    LimitFindings findings = limits_of(scene, model, reduced, simulation, threads, goes_on);
     const std::optional<double>& stands = findings.answer.released.lower;
-    if (!has_rough_joints(model) || findings.answer.interrupted || !stands || n == most_searches)
-      return findings;
+    if (!has_rough_joints(model) || findings.answer.interrupted || !stands) return findings;
     const LimitFactors limit =
         is_safety(scene.analysis) ? LimitFactors{*stands, 1.0} : LimitFactors{1.0, *stands};
-    if (set_rough_friction(model, limit) <= same_friction) return findings;
+    if (set_rough_friction(model, limit, reduced) <= same_friction) return findings;
+    if (n < most_searches) continue;
+    // The friction is not yet that of the limit.
+    findings.answer.released.resolved = findings.answer.associated.resolved = false;
+    findings.path.answer.resolved = false;
+    return findings;
   }
 }
 

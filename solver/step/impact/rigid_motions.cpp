@@ -10,13 +10,6 @@ namespace {
 /// takes away less. A smaller value would allow motions that supports prevent in part.
 constexpr double unrestricted = 1.0 - 1e-9;
 
-/// Rigid motions of a block, those that its supports leave and the others.
-struct SupportedMotions {
-  Eigen::MatrixXd free;    ///< orthonormal, (unknowns, at most 6)
-  Eigen::MatrixXd driven;  ///< that supports prevent at least in part, orthonormal, (3p, the rest of 6)
-  Eigen::VectorXd shares;  ///< squared length of what they prevent of each of these, of 1
-};
-
 SupportedMotions supported_motions(const BlockModel& block, const BlockState& state) {
   const Eigen::MatrixXd fields = rigid_fields(state.position);
   SupportedMotions motions;
@@ -35,9 +28,9 @@ SupportedMotions supported_motions(const BlockModel& block, const BlockState& st
 
 }  // namespace
 
-const Eigen::MatrixXd& RigidMotions::modes(int block) {
-  const auto [found, is_new] = modes_.emplace(block, Eigen::MatrixXd());
-  if (is_new) found->second = supported_motions(system_.blocks()[at(block)], states_[at(block)]).free;
+const SupportedMotions& RigidMotions::of(int block) {
+  const auto [found, is_new] = motions_.try_emplace(block);
+  if (is_new) found->second = supported_motions(system_.blocks()[at(block)], states_[at(block)]);
   return found->second;
 }
 
@@ -54,8 +47,8 @@ const Eigen::MatrixX3d& RigidMotions::driven_velocity(int block) {
   if (!is_new || !model.driven()) return found->second;
   const Eigen::MatrixX3d& velocity = states_[at(block)].velocity;
   if (model.fixed()) return found->second = velocity;
-  // What supports prescribe says nothing of the rest of the block. The rigid motion that agrees with it does.
-  const SupportedMotions motions = supported_motions(model, states_[at(block)]);
+  // Components at supports say nothing of the rest of the block. The rigid motion that agrees with them does.
+  const SupportedMotions& motions = of(block);
   const Eigen::MatrixX3d prescribed = velocity - model.space().expand(model.space().restrict(velocity));
   const Eigen::VectorXd rates =
       (motions.driven.transpose() * prescribed.reshaped()).cwiseQuotient(motions.shares);

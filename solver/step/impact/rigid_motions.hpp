@@ -10,6 +10,13 @@
 
 namespace ashlar {
 
+/// Rigid motions of a block, those that its supports leave and the others.
+struct SupportedMotions {
+  Eigen::MatrixXd free;    ///< orthonormal, (unknowns, at most 6)
+  Eigen::MatrixXd driven;  ///< that supports prevent at least in part, orthonormal, (3p, the rest of 6)
+  Eigen::VectorXd shares;  ///< squared length of the part that they prevent of each of these, of 1
+};
+
 /// Rigid motions and velocities of blocks, computed on first use. States and pairs do not change meanwhile.
 class RigidMotions {
  public:
@@ -18,7 +25,7 @@ class RigidMotions {
 
   [[nodiscard]] bool moves(int block) const { return system_.moving()[at(block)]; }
   /// Rigid motions that the supports of a block leave, orthonormal. @return (unknowns, at most 6)
-  const Eigen::MatrixXd& modes(int block);
+  const Eigen::MatrixXd& modes(int block) { return of(block).free; }
   /// Rigid part of the velocity of the unknowns; zero of a block that does not move.
   Eigen::VectorXd velocity(int block);
   /// Velocity by moving supports, (p, 3): of a block that they move rigidly, the rigid motion that has their velocity where
@@ -32,7 +39,9 @@ class RigidMotions {
  private:
   const BlockSystem& system_;
   const std::vector<BlockState>& states_;
-  std::map<int, Eigen::MatrixXd> modes_;
+  const SupportedMotions& of(int block);
+
+  std::map<int, SupportedMotions> motions_;
   std::map<int, Eigen::MatrixX3d> driven_;
   std::map<const ContactPair*, Eigen::Matrix3Xd> at_points_;
 };

@@ -1,4 +1,4 @@
-// What holds for every law of a joint: derivatives of forces, and energy of a step.
+// Every law of a joint: derivatives of its forces, and energy of a step.
 #include <gtest/gtest.h>
 
 #include <cmath>
