@@ -62,7 +62,15 @@ class Mover:
         if key in table or default is not None:
             table[key] = self.moved(table.get(key, default))
 
+    def formula(self, value):
+        """A number, or a formula of the place x, y, z."""
+        if not isinstance(value, str) or self.back:
+            return value
+        return re.sub(r"\b[xyz]\b", lambda name: f"({name[0]} - {self.shift['xyz'.index(name[0])]!r})", value)
+
     def where(self, table):
+        if "traction" in table:
+            table["traction"] = [self.formula(value) for value in table["traction"]]
         self.point(table, "point")
         if "plane" in table:
             self.point(table["plane"], "point")
