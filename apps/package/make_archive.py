@@ -2,7 +2,7 @@
 """Makes a relocatable archive of a build: program, Python wheel and all libraries they need, for machines without packages
 or a compiler.
 
-use: make_archive.py BUILD [--out DIR] [--debian]
+use: make_archive.py BUILD [--out DIR] [--wheel] [--debian]
 
     ashlar-VERSION-linux-ARCH.tar.gz
       bin/ashlar             starts libexec/ashlar with the libraries of lib/, wherever the folder lies
@@ -12,12 +12,13 @@ use: make_archive.py BUILD [--out DIR] [--debian]
       sbom.spdx.json         packages that the libraries come from, with versions and licence files (SPDX 2.3)
       SHA256SUMS             of every file; beside the archive one of itself
 
---debian makes the packages of cpack too. Needs patchelf, and dpkg-query for the list of packages.
+--wheel writes the wheel beside the archive too, --debian the packages of cpack. Needs patchelf, and dpkg-query for the list of packages.
 """
 import argparse
 import os
 import platform
 import shutil
+import sys
 import tarfile
 import tempfile
 from pathlib import Path
@@ -88,6 +89,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=Path, help="folder of a release build")
     parser.add_argument("--out", type=Path, default=Path("."), help="folder of the archive (default: here)")
+    parser.add_argument("--wheel", action="store_true", help="the wheel beside the archive too")
     parser.add_argument("--debian", action="store_true", help="Debian packages too")
     options = parser.parse_args()
     require("make_archive.py", "cmake", "ldd", "objdump", "patchelf", "dpkg-query")
@@ -98,7 +100,11 @@ def main():
         root = Path(work) / name
         libraries = collect_program(options.build, root)
         wheel = write_wheel(options.build, root / "wheel")
+        if wheel is None and options.wheel:
+            sys.exit(f"make_archive.py: {options.build} has no Python module; configure it with -DASHLAR_PYTHON=ON and build it")
         libraries |= wheel.libraries if wheel else {}
+        if options.wheel:
+            print(shutil.copy(wheel.file, options.out))
         shutil.copytree(ROOT / "apps" / "docs", root / "share" / "doc" / "ashlar" / "book",
                         ignore=shutil.ignore_patterns("*.py", "*.txt", "*.toml", "__pycache__", "api"))
         shutil.copyfile(ROOT / "LICENSE", root / "LICENSE")

@@ -75,9 +75,8 @@ write_sources() {
 
 write_binaries() {
   say 'archive, wheel, Debian packages'
-  python3 apps/package/make_archive.py "$build" --out "$out" --debian
+  python3 apps/package/make_archive.py "$build" --out "$out" --wheel --debian
   rm "$out"/*.tar.gz.sha256
-  python3 apps/package/make_wheel.py "$build" --out "$out"
   tar -xzf "$out/$name-linux-$(uname -m).tar.gz" -C "$out" --strip-components=1 --wildcards '*/sbom.spdx.json'
 }
 

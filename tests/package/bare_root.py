@@ -1,6 +1,7 @@
 """Installs the wheel of a build by pip where nothing but Python, NumPy and the C library is: a root folder made of the files of
 their Debian packages, and runs a scene there.
-use: bare_root.py BUILD     exit 77: there is no patchelf, dpkg or chroot, or this machine lacks the packages"""
+use: bare_root.py BUILD [--files FOLDER]    exit 77: there is no patchelf, dpkg or chroot, or this machine lacks the packages
+FOLDER has the files of a release (release.py --keep); without them the wheel is made."""
 import argparse
 import fnmatch
 import json
@@ -16,6 +17,7 @@ from pathlib import Path
 
 parser = argparse.ArgumentParser()
 parser.add_argument("build")
+parser.add_argument("--files", type=Path)
 options = parser.parse_args()
 PROJECT = Path(__file__).resolve().parents[2]
 PLAIN = {"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "LC_ALL": "C.UTF-8"}
@@ -95,8 +97,13 @@ class BareRoot(unittest.TestCase):
         cls.root = Path(cls.folder.name) / "root"
         cls.root.mkdir()
         make_root(cls.root)
-        output_of([sys.executable, PROJECT / "apps/package/make_wheel.py", options.build, "--out", cls.root / "wheel"],
-                  env=os.environ)
+        if options.files and options.files.exists():
+            (cls.root / "wheel").mkdir()
+            (wheel,) = options.files.glob("*.whl")
+            shutil.copy(wheel, cls.root / "wheel")
+        else:
+            output_of([sys.executable, PROJECT / "apps/package/make_wheel.py", options.build, "--out", cls.root / "wheel"],
+                      env=os.environ)
 
     @classmethod
     def tearDownClass(cls):

@@ -1,5 +1,6 @@
-"""Builds the Debian packages of a build, unpacks them into an empty folder and uses their contents.
-use: debian_packages.py BUILD [--python]     exit 77: there are no tools for packages"""
+"""Unpacks the Debian packages of a build into an empty folder and uses their contents.
+use: debian_packages.py BUILD [--files FOLDER] [--python]     exit 77: there are no tools for packages
+FOLDER has the files of a release (release.py --keep); without them the packages are made."""
 import argparse
 import json
 import os
@@ -13,6 +14,7 @@ from pathlib import Path
 
 parser = argparse.ArgumentParser()
 parser.add_argument("build")
+parser.add_argument("--files", type=Path)
 parser.add_argument("--python", action="store_true")
 options = parser.parse_args()
 if not all(shutil.which(tool) for tool in ("cpack", "dpkg-deb", "dpkg-shlibdeps")):
@@ -29,8 +31,10 @@ class Packages(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         work = Path(cls.folder.name)
-        output_of(["cpack", "-G", "DEB", "-B", work], cwd=options.build)
-        cls.packages = {output_of(["dpkg-deb", "-f", file, "Package"]).strip(): file for file in work.glob("*.deb")}
+        if not options.files or not options.files.exists():
+            options.files = work
+            output_of(["cpack", "-G", "DEB", "-B", work], cwd=options.build)
+        cls.packages = {output_of(["dpkg-deb", "-f", file, "Package"]).strip(): file for file in options.files.glob("*.deb")}
         cls.root = work / "root"
         for file in cls.packages.values():
             output_of(["dpkg-deb", "-x", file, cls.root])

@@ -1,5 +1,5 @@
 """Makes the files of a release of this build in a clone of the history, without pages of the book, and looks through them.
-use: release.py PROJECT BUILD     exit 77: there is no history, git or patchelf"""
+use: release.py PROJECT BUILD [--keep FOLDER]     exit 77: there is no history, git or patchelf"""
 import argparse
 import json
 import os
@@ -16,6 +16,7 @@ from pathlib import Path
 parser = argparse.ArgumentParser()
 parser.add_argument("project", type=Path)
 parser.add_argument("build", type=Path)
+parser.add_argument("--keep", type=Path, help="folder for the files, for other tests; it is emptied at first")
 options = parser.parse_args()
 SETTINGS = {"GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_NOSYSTEM": "1", "GIT_AUTHOR_NAME": "a", "GIT_AUTHOR_EMAIL": "a@localhost",
             "GIT_COMMITTER_NAME": "a", "GIT_COMMITTER_EMAIL": "a@localhost"}
@@ -86,7 +87,8 @@ class Release(unittest.TestCase):
         subprocess.run(["sha256sum", "--quiet", "--check", "SHA256SUMS"], cwd=out, check=True)
         named = {line.split("  ")[1] for line in (out / "SHA256SUMS").read_text().splitlines()}
         self.assertEqual(named, {path.name for path in out.iterdir()} - {"SHA256SUMS"})
-        for pattern in ("ashlar-{}.tar.gz", "ashlar-{}.zip", "ashlar-{}-linux-*.tar.gz", "ashlar_{}_*.deb", "ashlar-{}-example.html"):
+        for pattern in ("ashlar-{}.tar.gz", "ashlar-{}.zip", "ashlar-{}-linux-*.tar.gz", "ashlar-{}-*.whl", "ashlar_{}_*.deb",
+                        "ashlar-{}-example.html"):
             self.assertEqual(len(list(out.glob(pattern.format(self.version)))), 1, pattern)
         inside = f"ashlar-{self.version}/CMakeLists.txt"
         with tarfile.open(out / f"ashlar-{self.version}.tar.gz") as archive:
@@ -95,12 +97,16 @@ class Release(unittest.TestCase):
             self.assertIn(inside, archive.namelist())
         self.assertEqual(json.loads((out / "sbom.spdx.json").read_text())["spdxVersion"], "SPDX-2.3")
         self.assertEqual(git(self.clone, "tag").split(), [f"v{self.version}"])
+        if options.keep:
+            shutil.copytree(out, options.keep)
         again = self.release()
         self.assertIn("exists", again.stderr)
         self.assertEqual(again.returncode, 1)
 
 
 if __name__ == "__main__":
+    if options.keep:
+        shutil.rmtree(options.keep, ignore_errors=True)
     tools = ("git", "patchelf", "dpkg-query", "objdump", "cpack", "sha256sum")
     if not all(map(shutil.which, tools)) or subprocess.run(["git", "-c", "safe.directory=*", "rev-parse"], cwd=options.project,
                                                            capture_output=True, check=False).returncode != 0:
