@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -46,7 +47,10 @@ std::optional<std::string> RunStages::begin_next(const FinishedStage& last) {
     std::shared_ptr<const LoadedScene> scene = stage_scene(whole_, next);
     BuiltSimulation stage = built_stage(scene, threads_, group_);
     std::unique_ptr<CrackedBlocks> cracks = cracked_blocks(scene, stage.simulation);
-    if (cracks) cracks->repeat(cracks_->record(), stage.simulation);
+    if (cracks) {
+      cracks->repeat(cracks_->record(), stage.simulation);
+      cracks->begin_stage();
+    }
     stage.simulation.start_stage(simulation());
     if (const auto overlap = overlap_of_added(stage.simulation, was_absent)) return refusal(*overlap);
     finished_.push_back(last);
@@ -104,9 +108,16 @@ bool RunStages::cracks_are_due() {
 
 bool RunStages::divide_cracked() {
   if (!cracks_) return false;
-  if (is_static(scene().analysis) && !simulation().snapshot_without_pairs().run.statics.balanced)
-    return false;
-  return cracks_->divide(simulation(), static_cast<int>(finished_.size())) > 0;
+  const bool level = is_static(scene().analysis);
+  if (level && !simulation().snapshot_without_pairs().run.statics.balanced) return false;
+  return cracks_->divide(simulation(), static_cast<int>(finished_.size()), level) > 0;
+}
+
+double RunStages::end_of_loads() const {
+  const double end_time = scene().analysis.end_time;
+  const std::optional<double> crack =
+      cracks_ ? cracks_->time_of_next_crack(simulation().system().settings().time_step) : std::nullopt;
+  return crack ? std::min(*crack, end_time) : end_time;
 }
 
 const CrackRecord& RunStages::cracks() const {

@@ -52,6 +52,8 @@ class RunStages {
   void resume(const RunCheckpoint& checkpoint);
   /// Divides blocks that have cracked, in a static analysis at the balance of a load level. @return true if there are any. @throws std::length_error as CrackedBlocks::divide
   bool divide_cracked();
+  /// Time that the next load level may reach, s: end_time, or that at which a block is expected to crack.
+  [[nodiscard]] double end_of_loads() const;
   /// True once after resume(): a checkpoint is written after a step, and before the blocks that it has brought to their strength
   /// are divided.
   [[nodiscard]] bool cracks_are_due();

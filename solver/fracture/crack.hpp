@@ -37,10 +37,17 @@ struct CrackEvent {
   double stress = 0.0;               ///< mean tension across it as it appeared, Pa
 };
 
+/// Tension of blocks at the balance of a load level.
+struct LevelTension {
+  double time = 0.0;           ///< s, of its stage
+  std::vector<double> shares;  ///< by block: largest mean tension over its strength; negative: not looked at
+};
+
 /// All cracks of a run: with the blocks of the scene they determine those of the run.
 struct CrackRecord {
   std::vector<CrackEvent> events;  ///< in order
   std::vector<int> left_whole;     ///< blocks at their strength that have no room for a crack, increasing
+  std::vector<LevelTension> levels;  ///< the last ones of a static stage, at most two, by time
 };
 
 }  // namespace ashlar

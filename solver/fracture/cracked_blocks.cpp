@@ -15,6 +15,12 @@ namespace {
 /// longer than the crack needs to unload them.
 constexpr double softened_damage = 0.5;
 
+/// Tension over the strength at which a load level is to end at a crack: just beyond, so that rounding does not leave the block
+/// whole.
+constexpr double aimed_share = 1.0005;
+/// Least part of the step between load levels, to get past places where tension hardly grows.
+constexpr double least_level = 1e-3;
+
 /// Damage of a joint at its most damaged point, 0 to 1.
 double largest_damage(const PairHistory& pair) {
   double largest = 0.0;
@@ -44,6 +50,7 @@ CrackedBlocks::CrackedBlocks(std::vector<std::optional<CrackLaw>> laws, Definiti
       most_blocks_(most_blocks),
       cracks_(run.blocks().size(), 0) {
   for (int k = 0; k < run.system().count(); ++k) origins_.push_back(k);
+  begin_stage();
 }
 
 const std::optional<CrackLaw>& CrackedBlocks::law_of(int block) const {
@@ -56,7 +63,11 @@ const BlockDefinition& CrackedBlocks::definition_of(int block) {
   return place->second;
 }
 
-std::vector<WeakPlace> CrackedBlocks::weak_places(const Simulation& run) {
+double CrackedBlocks::excess(const WeakPlace& place) const {
+  return place.stress / law_of(place.block)->tensile_strength;
+}
+
+std::vector<WeakPlace> CrackedBlocks::weak_places(const Simulation& run, bool level) {
   std::vector<int> asked;
   const std::vector<bool> waits = beside_new_cracks(run, origins_);
   for (int k = 0; k < run.system().count(); ++k) {
@@ -71,20 +82,49 @@ std::vector<WeakPlace> CrackedBlocks::weak_places(const Simulation& run) {
     const CrackLaw& law = *law_of(asked[n]);
     StressProbes& probes = probes_.at(asked[n]);
     if (probes.points.empty()) probes = stress_probes(block, law.least_size);
-    found[n] = weakest_place(block, run.states()[at(asked[n])], probes, law.tensile_strength);
+    found[n] =
+        weakest_place(block, run.states()[at(asked[n])], probes, level ? 0.0 : law.tensile_strength);
+    if (found[n]) found[n]->block = asked[n];
   });
+  if (level) note_level(run.time(), asked, found);
   std::vector<WeakPlace> places;
-  for (std::size_t n = 0; n < asked.size(); ++n) {
-    if (!found[n]) continue;
-    found[n]->block = asked[n];
-    places.push_back(*found[n]);
-  }
-  const auto excess = [this](const WeakPlace& place) {
-    return place.stress / law_of(place.block)->tensile_strength;
-  };
+  for (const std::optional<WeakPlace>& place : found)
+    if (place && excess(*place) >= 1.0) places.push_back(*place);
   std::stable_sort(places.begin(), places.end(),
-                   [&](const WeakPlace& x, const WeakPlace& y) { return excess(x) > excess(y); });
+                   [this](const WeakPlace& x, const WeakPlace& y) { return excess(x) > excess(y); });
   return places;
+}
+
+void CrackedBlocks::note_level(double time, const std::vector<int>& asked,
+                               const std::vector<std::optional<WeakPlace>>& found) {
+  LevelTension level{time, std::vector<double>(origins_.size(), -1.0)};
+  for (std::size_t n = 0; n < asked.size(); ++n)
+    level.shares[at(asked[n])] = found[n] ? excess(*found[n]) : 0.0;
+  std::vector<LevelTension>& levels = record_.levels;
+  // After a crack the level is balanced once more.
+  if (!levels.empty() && levels.back().time == time) levels.pop_back();
+  if (levels.size() == 2) levels.erase(levels.begin());
+  levels.push_back(std::move(level));
+}
+
+void CrackedBlocks::begin_stage() {
+  // No tension without loads: if there were some, the first prediction is too early, and the next one right.
+  record_.levels = {{0.0, std::vector<double>(origins_.size(), 0.0)}};
+}
+
+std::optional<double> CrackedBlocks::time_of_next_crack(double time_step) const {
+  if (record_.levels.size() < 2) return std::nullopt;
+  const LevelTension& before = record_.levels[0];
+  const LevelTension& now = record_.levels[1];
+  double first = 1.0;  // in time steps
+  for (std::size_t k = 0; k < std::min(before.shares.size(), now.shares.size()); ++k) {
+    const double share = now.shares[k];
+    const double growth = (share - before.shares[k]) * time_step / (now.time - before.time);
+    if (before.shares[k] < 0.0 || share < 0.0 || share >= 1.0 || !(growth > 0.0)) continue;
+    first = std::min(first, std::max((aimed_share - share) / growth, least_level));
+  }
+  if (first == 1.0) return std::nullopt;
+  return now.time + first * time_step;
 }
 
 std::optional<CrackedBlocks::Division> CrackedBlocks::division_of(int block, const Plane& plane,
@@ -132,9 +172,9 @@ void CrackedBlocks::leave_whole(int block) {
                             block);
 }
 
-int CrackedBlocks::divide(Simulation& run, int stage) {
+int CrackedBlocks::divide(Simulation& run, int stage, bool level) {
   int cracks = 0;
-  for (const WeakPlace& place : weak_places(run)) {
+  for (const WeakPlace& place : weak_places(run, level)) {
     const CrackLaw law = *law_of(place.block);
     const std::optional<Plane> plane =
         plane_with_room(run.blocks()[at(place.block)].solid(), place.plane, law.least_size);
@@ -167,6 +207,7 @@ void CrackedBlocks::repeat(const CrackRecord& record, Simulation& run) {
     record_.events.push_back(event);
   }
   record_.left_whole = record.left_whole;
+  record_.levels = record.levels;
 }
 
 double energy_of_cracks(const Simulation& run, const std::vector<int>& origins) {

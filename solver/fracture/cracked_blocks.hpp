@@ -26,12 +26,19 @@ class CrackedBlocks {
                 int most_blocks);
 
   /// Divides each block whose strength is reached once, those with the largest excess first. Blocks that do not move are left
-  /// out. @param stage stages that have ended before
+  /// out. @param stage stages that have ended before. @param level true: at the balance of a load level, which is noted
   /// @return number of new events in record()
   /// @throws std::length_error if there would be more than most_blocks
-  int divide(Simulation& run, int stage);
+  int divide(Simulation& run, int stage, bool level);
   /// Makes the cracks of an earlier run in the blocks of this one, as placed. @param run as given to the constructor
   void repeat(const CrackRecord& record, Simulation& run);
+  /// The first stage, or another one, begins: its load levels are no longer those of record().
+  void begin_stage();
+
+  /// Time at which a block is expected to reach its strength, by its tension at the last two load levels: the next level
+  /// ends there (notes/cracks.md). @param time_step s, > 0, between levels
+  /// @return s, of the stage; empty: not before the next level
+  [[nodiscard]] std::optional<double> time_of_next_crack(double time_step) const;
 
   [[nodiscard]] const CrackRecord& record() const { return record_; }
 
@@ -44,7 +51,10 @@ class CrackedBlocks {
 
   [[nodiscard]] const std::optional<CrackLaw>& law_of(int block) const;
   [[nodiscard]] const BlockDefinition& definition_of(int block);
-  [[nodiscard]] std::vector<WeakPlace> weak_places(const Simulation& run);
+  [[nodiscard]] std::vector<WeakPlace> weak_places(const Simulation& run, bool level);
+  void note_level(double time, const std::vector<int>& asked,
+                  const std::vector<std::optional<WeakPlace>>& found);
+  [[nodiscard]] double excess(const WeakPlace& place) const;
   [[nodiscard]] std::optional<Division> division_of(int block, const Plane& plane, std::size_t blocks);
   /// The law of all pairs, with the joints of cracks.
   [[nodiscard]] Simulation::LawOfPair laws() const;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "support/simulations.hpp"
 
@@ -29,10 +31,10 @@ CrackLaw law() {
 }
 
 struct CrackingBar {
-  explicit CrackingBar(int threads = 1) {
+  explicit CrackingBar(int threads = 1, double time_step = 2e-3) {
     SimulationSettings settings;
     settings.gravity.setZero();
-    settings.time_step = 2e-3;
+    settings.time_step = time_step;
     settings.threads = threads;
     std::vector<BlockModel> blocks;
     blocks.emplace_back(bar());
@@ -45,7 +47,7 @@ struct CrackingBar {
   void until(double time) {
     while (!simulation->reached(time)) {
       ASSERT_EQ(simulation->step(time), StepStatus::accepted);
-      cracks->divide(*simulation, 0);
+      cracks->divide(*simulation, 0, false);
     }
   }
 
@@ -93,6 +95,31 @@ TEST(CrackedBlocks, ThreadsDoNotChangeABit) {
   ASSERT_EQ(two.simulation->states().size(), 2U);
   for (const std::size_t part : {0U, 1U})
     EXPECT_EQ(one.simulation->states()[part].position, two.simulation->states()[part].position);
+}
+
+// Tension grows to the strength at 0.1 s: the level that would pass it ends there. The next one has its whole
+// length again.
+TEST(CrackedBlocks, ALoadLevelEndsWhereTheStrengthIsReached) {
+  for (const double level : {0.04, 0.06, 0.09}) {
+    CrackingBar run(1, level);
+    std::vector<double> times;
+    while (!run.simulation->reached(0.3)) {
+      const double end = run.cracks->time_of_next_crack(level).value_or(0.3);
+      const StaticStatus found = run.simulation->static_step(end);
+      ASSERT_TRUE(found == StaticStatus::balancing || found == StaticStatus::equilibrium);
+      if (!run.simulation->snapshot().run.statics.balanced) continue;
+      if (times.empty() || times.back() != run.simulation->time()) times.push_back(run.simulation->time());
+      run.cracks->divide(*run.simulation, 0, true);
+      if (run.simulation->time() > 0.25) break;
+    }
+    ASSERT_EQ(run.cracks->record().events.size(), 1U);
+    const CrackEvent& crack = run.cracks->record().events.front();
+    EXPECT_NEAR(crack.time, 0.1 * 1.0005, 1e-9);
+    EXPECT_NEAR(crack.stress, 1.0005 * strength, 1e-6 * strength);
+    const auto at_crack = std::find(times.begin(), times.end(), crack.time);
+    ASSERT_TRUE(at_crack != times.end() && at_crack + 1 != times.end());
+    EXPECT_NEAR(at_crack[1], crack.time + level, 1e-12);
+  }
 }
 
 }  // namespace
