@@ -6,6 +6,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/parallel_for.hpp"
+#include "solver/run/lost_strength.hpp"
 
 namespace ashlar {
 namespace {
@@ -82,8 +83,7 @@ std::vector<WeakPlace> CrackedBlocks::weak_places(const Simulation& run, bool le
     const CrackLaw& law = *law_of(asked[n]);
     StressProbes& probes = probes_.at(asked[n]);
     if (probes.points.empty()) probes = stress_probes(block, law.least_size);
-    found[n] =
-        weakest_place(block, run.states()[at(asked[n])], probes, level ? 0.0 : law.tensile_strength);
+    found[n] = weakest_place(block, run.states()[at(asked[n])], probes, level ? 0.0 : law.tensile_strength);
     if (found[n]) found[n]->block = asked[n];
   });
   if (level) note_level(run.time(), asked, found);
@@ -217,9 +217,8 @@ double energy_of_cracks(const Simulation& run, const std::vector<int>& origins) 
     const FractureEnergy fracture = run.system().law(blocks[0], blocks[1]).fracture;
     energy += fracture.tension * pair.broken;
     for (const ContactMemory::Entry& entry : pair.memory.entries()) {
-      if (!entry.memory.intact) continue;
-      const bool open = entry.memory.compression < 0.0;
-      energy += (open ? fracture.tension : fracture.shear) * entry.memory.damage * entry.area;
+      // The area of points that have failed is that which is broken.
+      if (entry.memory.intact) energy += dissipated_energy(fracture, entry.memory) * entry.area;
     }
   }
   return energy;

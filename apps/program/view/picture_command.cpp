@@ -269,9 +269,10 @@ void declare_parts(CLI::App& command, PictureParts& parts) {
                    "Contacts without their forces, as where there are more than 500");
   command
       .add_option("--joints", parts.joints,
-                  "Joint faces by opening, slip, state, normal or shear (stress) or water (pressure)")
+                  "Joint faces by opening, slip, state, normal or shear (stress), water (pressure) or "
+                  "fracture (energy)")
       ->type_name("WORD")
-      ->check(CLI::IsMember({"none", "opening", "slip", "state", "normal", "shear", "water"}));
+      ->check(CLI::IsMember({"none", "opening", "slip", "state", "normal", "shear", "water", "fracture"}));
   command.add_flag("--force-chain", parts.force_chain, "A bar for the force in each joint");
   command.add_flag("--thrust-line", parts.thrust_line, "The line through the forces in the joints");
   command.add_option("--vectors", parts.vectors, "Arrows of displacement or velocity")

@@ -196,6 +196,7 @@ Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, c
                {"velocity", surface.velocity},
                {"stress", surface.stress},
                {"water_pressure", surface.water},
+               {"fracture_energy", surface.fracture},
                {"few_points", most_few_points},
                {"history", history_json(folder)}};
   Json summary = json_file(folder / "summary.json");

@@ -90,7 +90,8 @@ void pack_blocks(PackedNumbers& numbers, const UnstructuredGrid& grid, const Vie
   if (surface.stress) numbers.add_reals(required_values<double>(grid.point_data, "stress", 6), 6);
 }
 
-void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, bool water, Json& head) {
+void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, const ViewSurface& surface,
+                 Json& head) {
   const auto& data = grid.cell_data;
   std::vector<std::int32_t> corners;
   for (std::size_t c = 0; c < grid.offsets.size(); ++c)
@@ -113,7 +114,8 @@ void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, bool wate
   numbers.add_reals(lengths, 1);
   for (const char* name : {"normal_traction", "shear_traction", "area"})
     numbers.add_reals(required_values<double>(data, name, 1), 1);
-  if (water) numbers.add_reals(required_values<double>(data, "water_pressure", 1), 1);
+  if (surface.water) numbers.add_reals(required_values<double>(data, "water_pressure", 1), 1);
+  if (surface.fracture) numbers.add_reals(required_values<double>(data, "fracture_energy", 1), 1);
   std::vector<Vector3> places;
   for (const int point : grid.connectivity) places.push_back(grid.points[at(point)]);
   numbers.add_points(places);
@@ -204,8 +206,11 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
     curved_ = std::make_unique<CurvedCells>(first);
     surface_ = surface_of(curved_->divided(std::move(first)));
   });
-  if (written("joints"))
-    surface_.water = find_values<double>(grid_of("joints", 0).cell_data, "water_pressure", 1) != nullptr;
+  if (written("joints")) {
+    const UnstructuredGrid joints = grid_of("joints", 0);
+    surface_.water = find_values<double>(joints.cell_data, "water_pressure", 1) != nullptr;
+    surface_.fracture = find_values<double>(joints.cell_data, "fracture_energy", 1) != nullptr;
+  }
   surface_.fixed = fixed ? *std::move(fixed) : blocks_that_never_move();
 }
 
@@ -262,7 +267,7 @@ ViewFrameData ViewFrames::read(std::size_t index) const {
     const UnstructuredGrid grid = grid_of(series, index);
     naming_the_file(stored_->file(series, index), [&] { function(numbers, grid, head); });
   };
-  pack("joints", [&](auto& to, const auto& grid, Json& of) { pack_joints(to, grid, surface_.water, of); });
+  pack("joints", [&](auto& to, const auto& grid, Json& of) { pack_joints(to, grid, surface_, of); });
   const std::filesystem::path of_contacts = stored_->file("contacts", index);
   const UnstructuredGrid contacts = grid_of("contacts", index);
   const bool kept = points_ == ViewPoints::all || contacts.points.size() <= most_few_points;

@@ -24,7 +24,8 @@ struct ViewSurface {
   std::vector<std::int32_t> fixed;  ///< numbers of fixed blocks, increasing
   bool velocity = false;
   bool stress = false;
-  bool water = false;  ///< pressure of water in joints
+  bool water = false;     ///< pressure of water in joints
+  bool fracture = false;  ///< fracture energy of joints
 };
 
 struct ViewFrameData {
@@ -57,7 +58,7 @@ class ViewFrames {
   /// Packed one after the other, #p points of the surface:
   ///   displacements; velocities and stresses (xx, yy, zz, xy, yz, xz) if the run has them
   ///   joints, faces of joints.pvd: numbers of corners, states (3 more: broken), blocks a, blocks b; opening, slip (its
-  ///   length), normal_traction, shear_traction, area, water_pressure if the run has it; places of the corners, face
+  ///   length), normal_traction, shear_traction, area, water_pressure and fracture_energy if the run has them; places of the corners, face
   ///   after face
   ///   links, joint_resultants: blocks a, b, states; forces; places
   ///   bolts, lines of bolts.pvd: states, bolts; axial forces; places of both ends

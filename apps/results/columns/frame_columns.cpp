@@ -28,6 +28,8 @@ constexpr FrameField fields[] = {
      "in the middle of the face, where the scene has `[[water]]`; the normal traction is then effective"},
     {"joints", "normal_traction", "Pa", "compression positive; traction times area is the force"},
     {"joints", "shear_traction", "Pa", "the same of friction and shear springs"},
+    {"joints", "fracture_energy", "J/m^2",
+     "dissipated by softening, where joints have `fracture_energy` or blocks crack; in one process"},
     {"joints", "area", "m^2", "of the face"},
     {"joints", "state", "1", "of most of the area, as of contact points"},
     {"joints", "broken", "1", "1: the joint has failed"},

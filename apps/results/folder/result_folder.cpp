@@ -50,6 +50,17 @@ void note_peaks(const std::vector<double>& row, double time, std::vector<ColumnP
   }
 }
 
+/// True if a joint of any stage softens by fracture energy.
+bool has_fracture_energy(const Scene& scene) {
+  const auto any = [](const std::vector<SceneJoint>& joints) {
+    return std::any_of(joints.begin(), joints.end(),
+                       [](const SceneJoint& joint) { return joint.fracture_energy.has_value(); });
+  };
+  return scene.contact.law.fracture_energy || !scene.crack.empty() || any(scene.joint) ||
+         std::any_of(scene.stage.begin(), scene.stage.end(),
+                     [&](const SceneStage& stage) { return any(stage.joint); });
+}
+
 }  // namespace
 
 DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
@@ -79,6 +90,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
+      softens_(has_fracture_energy(scene) && simulation.system().exchange().alone()),
       actions_(drawn_actions(scene, simulation.blocks())),
       history_(folder_ / "history.csv", names_of(history_columns(measures_, !scene.stage.empty()))),
       series_(series_of(scene, simulation)),
@@ -104,6 +116,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
+      softens_(has_fracture_energy(scene) && simulation.system().exchange().alone()),
       actions_(drawn_actions(scene, simulation.blocks())),
       history_(HistoryWriter::resume(folder_ / "history.csv",
                                      names_of(history_columns(measures_, !scene.stage.empty())),
@@ -211,7 +224,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   for (const std::string& series : series_) {
     const auto grid = [&] {
       if (series == "contacts") return contact_frame(simulation);
-      if (series == "joints") return joint_frame(simulation, joint_surfaces_);
+      if (series == "joints") return joint_frame(simulation, joint_surfaces_, softens_);
       if (series == "bolts") return bolt_frame(simulation);
       if (series == "loads") return load_frame(simulation, actions_, progress_.stage);
       if (series == "blocks" && output_.solid) return shown(solid_frame, drawn_.solids);

@@ -127,6 +127,7 @@ class ResultFolder {
   std::vector<Measure> measures_;
   DrawnBlocks drawn_;
   std::vector<SubFaceSurface> joint_surfaces_;
+  bool softens_;  ///< joints have fracture energy, in one process
   DrawnActions actions_;
   HistoryWriter history_;
   std::vector<std::string> series_;  ///< of frames

@@ -13,6 +13,7 @@
 #include "apps/results/tables/measure.hpp"
 #include "geometry/contacts/cell_overlap.hpp"
 #include "geometry/index.hpp"
+#include "solver/run/lost_strength.hpp"
 
 namespace ashlar {
 namespace {
@@ -58,6 +59,7 @@ struct JointSums {
   Vector3 shear = Vector3::Zero(), slip = Vector3::Zero();
   std::array<double, 3> of_state = {};  ///< m^2
   double broken = 0.0;                  ///< m^2
+  double energy = 0.0;                  ///< J, dissipated by softening
 };
 
 struct JointFace {
@@ -127,7 +129,7 @@ std::vector<JointFace> faces_between(const PlacedSurface& a, const std::vector<i
 }
 
 void add(JointSums& sums, const ContactPoint& point, const PointResponse& response, ContactState state,
-         double gap, const Vector3& slip, bool broken) {
+         double gap, const Vector3& slip, bool broken, double energy) {
   sums.area += point.area;
   sums.gap += point.area * gap;
   sums.place += point.area * point.material_b;
@@ -136,6 +138,7 @@ void add(JointSums& sums, const ContactPoint& point, const PointResponse& respon
   sums.slip += point.area * slip;
   sums.of_state.at(static_cast<std::size_t>(state)) += point.area;
   if (broken) sums.broken += point.area;
+  sums.energy += point.area * energy;
 }
 
 /// The faces of a pair with the sums over their points.
@@ -146,6 +149,9 @@ std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& 
   const std::map<int, std::vector<int>> cells_a = cells_of_faces(a), cells_b = cells_of_faces(b);
   std::map<std::array<int, 2>, std::vector<JointFace>> faces;
   const std::vector<char> lost = simulation.points_without_strength(record);
+  const std::vector<double> energies =
+      dissipated_energies(simulation.system().law(record.a, record.b),
+                          history_of(simulation.histories(), {record.a, record.b}), record);
   const std::vector<ContactState> states = shown_states(simulation, record);
   for (std::size_t k = 0; k < record.points.size(); ++k) {
     const ContactPoint& point = record.points[k];
@@ -164,7 +170,7 @@ std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& 
     }
     if (nearest == nullptr) continue;
     add(nearest->sums, point, record.responses[k], states[k], record.gaps[k], slip_of(simulation, record, k),
-        lost[k] != 0);
+        lost[k] != 0, energies[k]);
   }
   std::vector<JointFace> result;
   for (auto& [key, list] : faces)
@@ -194,9 +200,10 @@ std::vector<SubFaceSurface> joint_surfaces(const std::vector<BlockModel>& blocks
   return surfaces;
 }
 
-UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<SubFaceSurface>& cells) {
+UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<SubFaceSurface>& cells,
+                             bool softens) {
   UnstructuredGrid grid;
-  std::vector<double> opening, slip, normal, shear, area;
+  std::vector<double> opening, slip, normal, shear, energy, area;
   std::array<std::vector<std::int32_t>, 4> numbers;  // state, broken, block_a, block_b
   std::vector<double> water;
   PresentSurfaces surfaces(simulation, cells);
@@ -214,6 +221,7 @@ UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<Sub
       slip.insert(slip.end(), {mean_slip.x(), mean_slip.y(), mean_slip.z()});
       normal.push_back(sums.normal / sums.area);
       shear.push_back(sums.shear.norm() / sums.area);
+      energy.push_back(sums.energy / sums.area);
       area.push_back(sums.area);
       if (simulation.joint_pressure())
         water.push_back(simulation.joint_pressure()(record.a, record.b, sums.place / sums.area));
@@ -228,6 +236,7 @@ UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<Sub
   grid.cell_data.push_back({"slip", 3, {"x", "y", "z"}, std::move(slip)});
   grid.cell_data.push_back({"normal_traction", 1, {}, std::move(normal)});
   grid.cell_data.push_back({"shear_traction", 1, {}, std::move(shear)});
+  if (softens) grid.cell_data.push_back({"fracture_energy", 1, {}, std::move(energy)});
   grid.cell_data.push_back({"area", 1, {}, std::move(area)});
   if (simulation.joint_pressure()) grid.cell_data.push_back({"water_pressure", 1, {}, std::move(water)});
   grid.cell_data.push_back({"state", 1, {}, std::move(numbers[0])});

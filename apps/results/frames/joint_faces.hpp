@@ -20,14 +20,15 @@ namespace ashlar {
 ///   normal_traction  Pa, normal force over area, compression positive
 ///   shear_traction   Pa, length of the shear force over area
 ///   water_pressure   Pa, in the middle; only where the scene has water
+///   fracture_energy  J/m^2, dissipated by softening (lost_strength.hpp); only of joints that soften, in one process
 ///   area             m^2, of the points: traction times area is the force
 ///   state            of most of the area: 0 open, 1 locked, 2 sliding (contact_state.hpp)
 ///   broken           1 if most of the area had strength and has failed, else 0
 ///   block_a, block_b numbers of the blocks
 /// Contacts at corners and crossing edges have no face. A point outside all polygons, as blocks have moved in the
 /// step, is assigned to the nearest polygon of its faces.
-/// @param surfaces from joint_surfaces
+/// @param surfaces from joint_surfaces. @param softens true: joints have fracture energy
 [[nodiscard]] UnstructuredGrid joint_frame(const Simulation& simulation,
-                                           const std::vector<SubFaceSurface>& surfaces);
+                                           const std::vector<SubFaceSurface>& surfaces, bool softens);
 
 }  // namespace ashlar

@@ -8,7 +8,7 @@ const ADDRESS_KEYS = [
   ["range", "range", ["run", "frame", "percentile", "own"]], ["low", "low", "number"], ["high", "high", "number"],
   ["units", "units", ["engineering", "si"]], ["scale", "scale", "positive"], ["parallel", "parallel", YES], ["edges", "edges", YES],
   ["subfaces", "subFaces", YES], ["glass", "seeThrough", YES],
-  ["joints", "joints", ["none", "opening", "slip", "state", "normal", "shear", "water"]],
+  ["joints", "joints", ["none", "opening", "slip", "state", "normal", "shear", "water", "fracture"]],
   ["loads", "loads", YES], ["supports", "supports", YES], ["bolts", "bolts", YES], ["water", "water", YES],
   ["contacts", "points", ["state", "type", "none"]], ["open", "openContacts", YES], ["arrows", "arrows", [...YES, "none"]],
   ["chain", "chain", YES], ["thrust", "thrust", YES], ["forcescale", "forceScale", "positive"],

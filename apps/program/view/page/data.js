@@ -5,7 +5,8 @@ const STATES = ["open", "locked", "sliding"];
 const STRESS_NAMES = ["xx", "yy", "zz", "xy", "yz", "xz"];
 
 /// Real values of the faces of joints, in the order of the page.
-const JOINT_REALS = () => ["opening", "slip", "normal", "shear", "area", ...(data.water_pressure ? ["water"] : [])];
+const JOINT_REALS = () => ["opening", "slip", "normal", "shear", "area", ...(data.water_pressure ? ["water"] : []),
+  ...(data.fracture_energy ? ["fracture"] : [])];
 
 const vectorAt = (values, k) => new THREE.Vector3().fromArray(values, 3 * k);
 
@@ -47,7 +48,7 @@ class Frame {
       const {joints: count, corners} = this.head;
       const joints = {count, start: new Uint32Array(count + 1)};
       if (count === 0) {
-        for (const name of ["state", "broken", "a", "b", "water", ...JOINT_REALS(), "places"])
+        for (const name of ["state", "broken", "a", "b", "water", "fracture", ...JOINT_REALS(), "places"])
           joints[name] = new Float32Array(0);
         return joints;
       }

@@ -65,12 +65,14 @@ const JOINT_FIELDS = {
   normal: {label: "normal stress, compression +", unit: "Pa", of: (joints) => joints.normal},
   shear: {label: "shear stress", unit: "Pa", of: (joints) => joints.shear},
   water: {label: "water pressure", unit: "Pa", of: (joints) => joints.water, fromZero: true},
+  fracture: {label: "fracture energy dissipated", unit: "J/m²", of: (joints) => joints.fracture, fromZero: true},
   state: {label: "state of joints", kinds: [...STATES, "broken"],
     of: (joints) => joints.state.map((state, k) => (joints.broken[k] ? 3 : state))},
 };
 
 /// Keys of those that the run has.
-const jointFieldKeys = () => Object.keys(JOINT_FIELDS).filter((key) => key !== "water" || data.water_pressure);
+const jointFieldKeys = () => Object.keys(JOINT_FIELDS).filter(
+  (key) => (key !== "water" || data.water_pressure) && (key !== "fracture" || data.fracture_energy));
 
 /// Blocks are transparent, in one colour, where coloured joints are shown.
 const blockField = () => fields[current.joints === "none" ? current.field : "stone"];

@@ -18,6 +18,7 @@ function faultOf(wishes) {
     return "the run has no " + wishes.get("color") + " (output.fields)";
   if (current.joints !== "none" && !hasJoints()) return "the run has no contact faces (joints.pvd)";
   if (current.joints === "water" && !data.water_pressure) return "the run has no water in joints ([[water]])";
+  if (current.joints === "fracture" && !data.fracture_energy) return "the run has no joints with fracture_energy";
   if (current.vectors === "velocity" && !data.velocity) return "the run has no velocity (output.fields)";
   const unknown = ["hide", "only"].flatMap((key) => (wishes.get(key) || "").split(","))
     .find((name) => name !== "" && blockCalled(name) < 0);

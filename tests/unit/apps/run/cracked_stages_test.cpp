@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/results/frames/grid_arrays.hpp"
+#include "apps/results/frames/joint_faces.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scene/assemble/scene_loading.hpp"
+#include "solver/fracture/cracked_blocks.hpp"
 
 namespace ashlar::cracked_stages_test {
 namespace {
@@ -54,6 +57,29 @@ TEST(CrackedStages, InStatics) {
 
 TEST(CrackedStages, InMotion) {
   expect_the_same_tension({"analysis.type=\"dynamic\""});
+}
+
+// Opened by w = 1.4 u0 - u0 t/f_t under the tension t, a linear fall has dissipated f_t w/2.
+TEST(CrackedStages, FacesHaveTheEnergyOfTheCrack) {
+  Diagnostics diagnostics;
+  auto scene = load_scene(std::filesystem::path(ASHLAR_DATA_DIR) / "verification/cracks/bar.toml",
+                          {"analysis.end_time=1.4"}, diagnostics);
+  ASSERT_TRUE(scene.has_value());
+  ashlar::Run run(std::move(*scene));
+  while (run.step()) {
+  }
+  const double width = elongation * (1.4 - tension_at(1.4) / strength);
+  const UnstructuredGrid faces =
+      joint_frame(run.simulation(), joint_surfaces(run.simulation().blocks()), true);
+  double energy = 0.0, area = 0.0;
+  for (std::size_t k = 0; k < faces.offsets.size(); ++k) {
+    const double of_face = find_values<double>(faces.cell_data, "area", 1)->at(k);
+    area += of_face;
+    energy += find_values<double>(faces.cell_data, "fracture_energy", 1)->at(k) * of_face;
+  }
+  EXPECT_NEAR(area, 0.01, 1e-12);
+  EXPECT_NEAR(energy, 0.5 * strength * width * area, 0.01 * energy);
+  EXPECT_NEAR(energy, energy_of_cracks(run.simulation(), {0, 0}), 1e-9 * energy);
 }
 
 }  // namespace
