@@ -14,127 +14,21 @@ fi
 mkdir -p "$1/sources" "$1/done" "$1/logs" "$1/include" "$1/lib/cmake"
 root=$(cd "$1" && pwd)
 triple=x86_64-w64-mingw32
-compilers=(CC=$triple-gcc-posix CXX=$triple-g++-posix AR=$triple-gcc-ar-posix RANLIB=$triple-gcc-ranlib-posix)
 jobs=${ASHLAR_JOBS:-$(nproc)}
+archiver=$triple-gcc-ar-posix
+host=(--host=$triple CC=$triple-gcc-posix CXX=$triple-g++-posix AR="$archiver" RANLIB=$triple-gcc-ranlib-posix
+  CFLAGS=-O2)
+build_compilers=()
+compile=($triple-gcc-posix)
+cmake_options=(-DASHLAR_WINDOWS_LIBRARIES="$root")
+gmp_options=(--enable-fat)
+qd_flags='-O2 -ffp-contract=off'
+source "$here/../libraries.sh"
 
-stop() { printf 'build_libraries.sh: %s\n' "$*" >&2; exit 1; }
-
-# The sources of a package, with Debian's changes, in sources/NAME.
-unpack() {
-  [[ ! -e $root/sources/$1 ]] || return 0
-  (cd "$root/sources" && apt-get source --download-only "$1") || stop "apt-get cannot get the sources of $1"
-  local found=("$root/sources/$1"_*.dsc)
-  dpkg-source --no-check -x "${found[-1]}" "$root/sources/$1"
-}
-
-# use: configured NAME OPTION...: by autotools.
-configured() {
-  local name=$1
-  shift
-  cd "$root/sources/$name"
-  ./configure --host=$triple --build=x86_64-linux-gnu --prefix="$root" --disable-shared --enable-static \
-    "${compilers[@]}" CFLAGS=-O2 "$@"
-  make -j"$jobs"
-  make install
-}
-
-# use: by_cmake NAME FOLDER OPTION...
-by_cmake() {
-  local name=$1 source=$root/sources/$1/$2
-  shift 2
-  cmake -S "$source" -B "$root/sources/$name-build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DASHLAR_WINDOWS_LIBRARIES="$root" \
-    -DCMAKE_INSTALL_PREFIX="$root" -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=OFF "$@"
-  cmake --build "$root/sources/$name-build" -j"$jobs"
-  cmake --install "$root/sources/$name-build"
-}
-
-# Headers of libraries without code, and CMake files of some. /usr/include itself would bring those of Linux.
-build_headers() {
-  local name
-  for name in CGAL boost eigen3 CLI toml++ nlohmann; do ln -sfn "/usr/include/$name" "$root/include/$name"; done
-  mkdir -p "$root/share/cmake" "$root/share/eigen3"
-  cp -rT /usr/share/eigen3/cmake "$root/share/eigen3/cmake"
-  cp -rT /usr/share/cmake/CLI11 "$root/share/cmake/CLI11"
-  cp -rT /usr/share/cmake/nlohmann_json "$root/share/cmake/nlohmann_json"
-}
-
-build_gmp() {
-  unpack gmp
-  mkdir -p "$root/sources/gmp/doc" # Debian's sources have no manual, which configure expects
-  printf 'all install:\n' >"$root/sources/gmp/doc/Makefile.in"
-  configured gmp --enable-cxx --enable-fat CC_FOR_BUILD=gcc
-}
-
-build_mpfr() {
-  unpack mpfr4
-  configured mpfr4 --with-gmp="$root" --enable-thread-safe
-}
-
-# Debian's changes of this package are about Fortran, which is not built.
-build_qd() {
-  if [[ ! -e $root/sources/qd ]]; then
-    (cd "$root/sources" && apt-get source --tar-only --download-only qd)
-    mkdir "$root/sources/qd"
-    tar -xf "$root"/sources/qd_*.orig.tar.* -C "$root/sources/qd" --strip-components=1
-  fi
-  cd "$root/sources/qd"
-  [[ -x configure ]] || autoreconf -fi
-  configured qd --disable-fortran CXXFLAGS='-O2 -ffp-contract=off'
-}
-
-# Its own versions of the few functions of LAPACK that CHOLMOD calls are enough. The kernels are chosen when the program
-# starts: those for AVX2, or those that all 64-bit processors can run.
+# The kernels are chosen when the program starts: those for AVX2, or those that all 64-bit processors can run.
 build_openblas() {
-  unpack openblas
-  cd "$root/sources/openblas"
-  local options=(CC=$triple-gcc-posix FC=true HOSTCC=gcc AR=$triple-gcc-ar-posix RANLIB=$triple-gcc-ranlib-posix
-    TARGET=PRESCOTT DYNAMIC_ARCH=1 DYNAMIC_LIST=HASWELL BINARY=64 CROSS=1 NOFORTRAN=1 NO_SHARED=1 USE_THREAD=0
-    USE_LOCKING=1 NUM_THREADS=64 NO_CBLAS=1 NO_LAPACKE=1 BUILD_SINGLE=0 BUILD_COMPLEX=0 BUILD_DOUBLE=1
-    BUILD_COMPLEX16=1 MAKE_NB_JOBS="$jobs")
-  make -j"$jobs" libs "${options[@]}"
-  cp libopenblas*-r*.a "$root/lib/libopenblas.a"
-}
-
-# use: compiled ARCHIVE FLAG... -- SOURCE...
-compiled() {
-  local archive=$1 flags=() source object
-  shift
-  while [[ $1 != -- ]]; do flags+=("$1"); shift; done
-  shift
-  mkdir -p "$root/sources/$archive-objects"
-  for source in "$@"; do
-    object=$root/sources/$archive-objects/${source//\//_}.o
-    printf '%s\0' -c "$source" -o "$object"
-  done | xargs -0 -n 4 -P "$jobs" $triple-gcc-posix -O2 "${flags[@]}"
-  $triple-gcc-ar-posix rcs "$root/lib/lib$archive.a" "$root/sources/$archive-objects"/*.o
-}
-
-# Its random numbers are its own: those of the C library of Windows have 15 bits.
-build_metis() {
-  unpack metis
-  cd "$root/sources/metis"
-  sed -i '/sys\/resource.h/d' GKlib/gk_arch.h
-  compiled metis -w -Iinclude -Ilibmetis -IGKlib -DUSE_GKREGEX -DUSE_GKRAND -DNDEBUG -DNDEBUG2 -- libmetis/*.c \
-    GKlib/{blas,error,gkregex,memory,mcore,random,sort,util,timers,pqueue,string}.c
-  cp include/metis.h "$root/include"
-}
-
-# CHOLMOD for indices of 32 bits, with the orderings that it calls.
-build_suitesparse() {
-  unpack suitesparse
-  cd "$root/sources/suitesparse"
-  local parts=(SuiteSparse_config AMD/Include COLAMD/Include CAMD/Include CCOLAMD/Include CHOLMOD/Include)
-  mkdir -p "$root/include/suitesparse"
-  cp SuiteSparse_config/*.h {AMD,COLAMD,CAMD,CCOLAMD,CHOLMOD}/Include/*.h "$root/include/suitesparse"
-  compiled cholmod "${parts[@]/#/-I}" -DDINT -DNTIMER -I"$root/include" -- SuiteSparse_config/SuiteSparse_config.c \
-    {AMD,COLAMD,CAMD,CCOLAMD}/Source/*.c CHOLMOD/{Check,Cholesky,Core,MatrixOps,Modify,Partition,Supernodal}/cholmod_*.c
-}
-
-build_hdf5() {
-  unpack hdf5
-  by_cmake hdf5 . -DHDF5_BUILD_TOOLS=OFF -DHDF5_BUILD_EXAMPLES=OFF -DHDF5_BUILD_HL_LIB=OFF -DBUILD_TESTING=OFF \
-    -DHDF5_BUILD_CPP_LIB=OFF -DHDF5_ENABLE_Z_LIB_SUPPORT=ON -DHDF5_ENABLE_SZIP_SUPPORT=OFF
+  openblas CC=$triple-gcc-posix FC=true AR="$archiver" RANLIB=$triple-gcc-ranlib-posix \
+    TARGET=PRESCOTT DYNAMIC_ARCH=1 DYNAMIC_LIST=HASWELL BINARY=64 USE_LOCKING=1 NUM_THREADS=64
 }
 
 build_tbb() {
@@ -142,25 +36,4 @@ build_tbb() {
   by_cmake onetbb . -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
 }
 
-build_fmt() { unpack fmtlib; by_cmake fmtlib . -DFMT_TEST=OFF -DFMT_DOC=OFF; }
-build_muparser() { unpack muparser; by_cmake muparser . -DENABLE_SAMPLES=OFF -DENABLE_OPENMP=OFF; }
-build_googletest() { unpack googletest; by_cmake googletest .; }
-
-build_expat() {
-  unpack expat
-  by_cmake expat expat -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF -DEXPAT_BUILD_TESTS=OFF \
-    -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_DOCS=OFF
-}
-
-for library in headers fmt muparser expat metis openblas tbb suitesparse gmp mpfr qd hdf5 googletest; do
-  [[ ! -e $root/done/$library ]] || continue
-  printf '%s\n' "$library"
-  # Not as a condition: the shell would go on after a command that fails.
-  set +e
-  (set -e; build_$library) >"$root/logs/$library" 2>&1
-  status=$?
-  set -e
-  ((status == 0)) || stop "$library is not built; the last lines of $root/logs/$library:
-$(tail -n 20 "$root/logs/$library")"
-  touch "$root/done/$library"
-done
+build_all headers fmt muparser expat metis openblas tbb suitesparse gmp mpfr qd hdf5 googletest
