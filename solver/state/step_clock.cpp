@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/text/write_number.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -27,9 +29,8 @@ struct Decimal {
 /// The shortest decimal representation of a double, without trailing zeros.
 std::optional<Decimal> shortest_decimal(double value) {
   if (value == 0.0) return Decimal{};
-  std::array<char, 32> text;
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific).ptr;
+  std::array<char, longest_number> text;
+  const char* const end = write_number(text.data(), value, NumberForm::scientific);
   Decimal decimal;
   bool negative = false, after_point = false;
   const char* at = text.data();

@@ -1,10 +1,10 @@
 #include "apps/results/text/csv_text.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "geometry/text/parse_number.hpp"
+#include "geometry/text/write_number.hpp"
 
 namespace ashlar {
 namespace {
@@ -19,13 +19,10 @@ bool looks_like_formula(std::string_view field) {
 }  // namespace
 
 void append_csv_number(std::string& text, double value) {
-  std::array<char, 32> digits;
-  char* const begin = digits.data();
-  char* const end = begin + digits.size();
+  std::array<char, longest_number> digits;
   const bool whole = std::trunc(value) == value && std::abs(value) < 1e15;
-  const auto result =
-      whole ? std::to_chars(begin, end, value, std::chars_format::fixed) : std::to_chars(begin, end, value);
-  text.append(begin, result.ptr);
+  text.append(digits.data(),
+              write_number(digits.data(), value, whole ? NumberForm::fixed : NumberForm::shorter));
 }
 
 std::optional<double> csv_number(std::string_view field) {

@@ -112,7 +112,7 @@ std::span<const PointDerivative> IslandProblem::derivatives(std::size_t k) const
   if (std::exchange(contacts_.derived[k], 1) != 0) return result;
   const PairResponse& response = contacts_.pairs[k];
   if (!response.means.empty()) {
-    std::ranges::copy(derivatives_of(response), result.begin());
+    for (auto to = result.begin(); const PointDerivative& mean : derivatives_of(response)) *to++ = mean;
     return result;
   }
   const std::span<const FrequentLaw> laws = table_.frequent(k);
