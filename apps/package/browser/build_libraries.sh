@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Builds what the program needs, for WebAssembly, from Debian's source packages: see usage.
+usage='use: apps/package/browser/build_libraries.sh FOLDER
+Fills FOLDER with static libraries for WebAssembly, and with the headers that are the same for all systems. Needs
+Debian 12 with the packages emscripten, clang, lld, ccache and dpkg-dev, those of apps/install_packages.sh, and a line
+"deb-src" in the sources of apt. A library that is there is not built again. Takes 10 minutes with two processors.'
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+if (($# != 1)) || [[ $1 == --help ]]; then
+  echo "$usage"
+  (($# == 1)) && exit 0 || exit 2
+fi
+mkdir -p "$1/sources" "$1/done" "$1/logs" "$1/include" "$1/lib/cmake"
+root=$(cd "$1" && pwd)
+jobs=${ASHLAR_JOBS:-$(nproc)}
+archiver=llvm-ar
+# The compiler that emcc calls, with emcc's options; emcc itself, which is a program in Python, takes longer than most
+# sources. Exceptions are those of WebAssembly.
+sysroot=/usr/share/emscripten/cache/sysroot
+system_libraries=$sysroot/lib/wasm32-emscripten
+flags=(--target=wasm32-unknown-emscripten "--sysroot=$sysroot" -mllvm -combiner-global-alias-analysis=false
+  -mllvm -enable-emscripten-sjlj -mllvm -disable-lsr -Xclang "-iwithsysroot/include/compat" -ffp-contract=off)
+cc="ccache clang ${flags[*]}"
+cxx="ccache clang++ ${flags[*]} -D_LIBCPP_ABI_VERSION=2 -fno-threadsafe-statics -fwasm-exceptions"
+# Programs that configure links, to find out what there is, are never run: functions of emscripten in JavaScript may be
+# missing in them.
+defined() { llvm-nm --defined-only "$system_libraries/libc.a" 2>/dev/null | awk 'NF == 3 { print $3 }' | sort -u; }
+needed() { llvm-nm --undefined-only "$system_libraries/libc.a" 2>/dev/null | awk 'NF == 2 { print $2 }' | sort -u; }
+comm -23 <(needed) <(defined) >"$root/javascript_functions"
+host=(--host=none CC="$cc" CXX="$cxx" AR="$archiver" RANLIB=llvm-ranlib CFLAGS=-O2
+  LDFLAGS="-nostdlib -L$system_libraries -Wl,--entry=main -Wl,--allow-undefined-file=$root/javascript_functions"
+  LIBS='-lc -lcompiler_rt -lc++-except -lc++abi-except')
+build_compilers=()
+read -ra compile <<<"$cc"
+cmake_options=(-DASHLAR_BROWSER_LIBRARIES="$root" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+gmp_options=(--disable-assembly)
+qd_flags='-O2 -ffp-contract=off'
+source "$here/../libraries.sh"
+
+build_zlib() {
+  unpack zlib
+  cd "$root/sources/zlib"
+  compiled z -D_LARGEFILE64_SOURCE=1 -DHAVE_UNISTD_H -- {adler32,crc32,deflate,infback,inffast,inflate,inftrees,trees,zutil,compress,uncompr}.c
+  cp zlib.h zconf.h "$root/include"
+}
+
+# The kernels in C, which a processor without vectors has.
+build_openblas() {
+  openblas CC="$cc" FC=true AR="$archiver" RANLIB=llvm-ranlib TARGET=RISCV64_GENERIC NO_LAPACK=1 NUM_THREADS=1
+}
+
+build_all headers zlib gmp mpfr googletest fmt qd metis suitesparse openblas muparser expat

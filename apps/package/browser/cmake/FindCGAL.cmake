@@ -1,0 +1,11 @@
+# Headers of CGAL and what they need. WebAssembly has no rounding modes: CGAL's bounds are one step wider instead.
+find_path(CGAL_INCLUDE_DIR CGAL/version.h)
+find_library(CGAL_MPFR_LIBRARY mpfr)
+find_library(CGAL_GMP_LIBRARY gmp)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CGAL DEFAULT_MSG CGAL_INCLUDE_DIR CGAL_MPFR_LIBRARY CGAL_GMP_LIBRARY)
+if(CGAL_FOUND AND NOT TARGET CGAL::CGAL)
+  add_library(CGAL::CGAL INTERFACE IMPORTED)
+  target_compile_definitions(CGAL::CGAL INTERFACE CGAL_USE_GMPXX=1 CGAL_ALWAYS_ROUND_TO_NEAREST CGAL_HAS_NO_THREADS)
+  target_link_libraries(CGAL::CGAL INTERFACE "${CGAL_MPFR_LIBRARY}" "${CGAL_GMP_LIBRARY}")
+endif()
