@@ -9,7 +9,8 @@ usage='use: tests/run.sh [OPTION]...
                  sanitizers
   --sanitizers   also build and test with the address and undefined sanitizers, then with the thread sanitizer
   --windows      also build the program for Windows, and test it in Wine; skipped where its compiler or Wine is missing
-  --all          all of these
+  --browser      also build the program for browsers, and test it in node and Chromium; skipped where emscripten is missing
+  --all          all of these but --windows and --browser
   --only PRESET  build and test this preset of CMakePresets.json instead of release'
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -20,6 +21,7 @@ format=no
 lint=no
 geometry=no
 windows=no
+browser=no
 while (($#)); do
   case $1 in
     --format) format=yes ;;
@@ -28,6 +30,7 @@ while (($#)); do
     --geometry) geometry=yes ;;
     --sanitizers) presets+=(asan tsan) ;;
     --windows) windows=yes ;;
+    --browser) browser=yes ;;
     --all) format=yes lint=yes presets+=(clang asan tsan) ;;
     --only) presets=("${2:?--only needs the name of a preset}"); shift ;;
     --help) echo "$usage"; exit 0 ;;
@@ -97,6 +100,20 @@ check_windows() {
   /usr/bin/python3 tests/windows/windows_test.py build/windows/apps/ashlar.exe build/release/apps/ashlar
 }
 
+# The same for browsers.
+check_browser() {
+  say 'browser'
+  local tool status
+  for tool in em++ node; do
+    command -v "$tool" >/dev/null || { printf 'skipped: there is no %s (apps/docs/howto/browser.md)\n' "$tool"; return 0; }
+  done
+  ASHLAR_JOBS=$jobs bash apps/package/browser/make_browser.sh --tests
+  /usr/bin/python3 tests/browser/program_test.py build/browser build/release/apps/ashlar
+  status=0
+  /usr/bin/python3 tests/browser/run_page_test.py build/ashlar-*-browser.html || status=$?
+  ((status == 0 || status == 77))
+}
+
 bash apps/install_packages.sh
 jobs=$(bash apps/build_jobs.sh)
 if command -v ccache >/dev/null; then
@@ -112,5 +129,6 @@ for preset in "${presets[@]}"; do
 done
 [[ $geometry == no ]] || check_geometry
 [[ $windows == no ]] || check_windows
+[[ $browser == no ]] || check_browser
 [[ $lint == no ]] || run_clang_tidy
 say "passed: ${presets[*]}$([[ $format == no ]] || echo ' format')$([[ $lint == no ]] || echo ' clang-tidy')"

@@ -9,6 +9,7 @@ Checks that the tree is ready, builds and tests it, and writes the files of a re
   *.deb                                  Debian packages
   ashlar-VERSION-book.zip                the documentation site, where Sphinx and Doxygen are
   ashlar-VERSION-example.html            the page of results of a tunnel roof, for any browser
+  ashlar-VERSION-browser.html            the program as a page, where build/ has it (apps/package/browser/make_browser.sh)
   sbom.spdx.json                         packages that the libraries come from
   SHA256SUMS                             of all of these
 
@@ -97,11 +98,18 @@ write_pages() {
   fi
 }
 
+write_browser() {
+  local page=build/$name-browser.html
+  [[ -f $page ]] || { echo 'no page that runs the program: apps/package/browser/make_browser.sh makes it'; return 0; }
+  cp "$page" "$out"
+}
+
 check_tree
 [[ -n $build ]] || build_and_test
 write_sources
 write_binaries
 write_pages
+write_browser
 (cd "$out" && sha256sum -- * >SHA256SUMS.new && mv SHA256SUMS.new SHA256SUMS)
 [[ $tag == no ]] || git tag -a "v$version" -m "Ashlar $version"
 say "$name: $out"
