@@ -3,7 +3,8 @@
     build_docs.py PROJECT OUTPUT --module FOLDER_OF_THE_PYTHON_MODULE
 
 Everything goes below OUTPUT, the site to OUTPUT/html. Warnings are errors, a link within the site that leads nowhere
-too. Exit status 77: Sphinx, Breathe, MyST, Furo or Doxygen is not there.
+too. Where the page that runs scenes has been made (apps/package/browser/make_browser.sh) it is a part of the site, and scenes of
+the tutorials have links to it. Exit status 77: Sphinx, Breathe, MyST, Furo or Doxygen is not there.
 """
 import argparse
 import importlib.util
@@ -19,6 +20,8 @@ UMBRELLAS = ("geometry/geometry.hpp", "mechanics/mechanics.hpp", "solver/solver.
              "apps/results/results_library.hpp", "apps/run/run_library.hpp")
 # Suffixes of files of the repository that the site takes along where a page links to them.
 TAKEN_ALONG = (".png", ".toml", ".csv", ".py", ".cpp")
+# Name in the site of the page that runs scenes.
+RUN_PAGE = "ashlar-browser.html"
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
 
 
@@ -30,8 +33,9 @@ def missing_tools():
 class Site:
     """The pages of a folder as Sphinx reads them: they are written for the repository's own pages."""
 
-    def __init__(self, project, source):
-        self.project, self.docs, self.source = project, project / "apps" / "docs", source
+    def __init__(self, project, source, runs=False):
+        """runs: the site has the page that runs scenes"""
+        self.project, self.docs, self.source, self.runs = project, project / "apps" / "docs", source, runs
 
     def link(self, page, match):
         """Links within the book stay; files of the repository are taken along, other pages of it become their words."""
@@ -56,8 +60,15 @@ class Site:
             text = with_contents(text)
         text = re.sub(r"^```(\w+) (\S+)$", r"```{code-block} \1\n:caption: \2", text, flags=re.MULTILINE)
         blocks = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
-        return "".join(block if block.startswith("```") else LINK.sub(lambda match: self.link(page, match), block)
+        return "".join(block + self.trial(page, block) if block.startswith("```") else LINK.sub(lambda match: self.link(page, match), block)
                        for block in blocks)
+
+    def trial(self, page, block):
+        """A link below a scene of a tutorial that opens it where it runs."""
+        name = re.match(r"```\{code-block\} toml\n:caption: (\S+\.toml)\n", block)
+        if not self.runs or not name or page.parent.name != "tutorial":
+            return ""
+        return f'\n\n<p><a href="../{RUN_PAGE}#scene={page.stem}/{name[1]}">Try it here</a>, in the browser.</p>'
 
     def write(self):
         for file in sorted(self.docs.rglob("*.md")):
@@ -114,13 +125,16 @@ def main():
     shutil.copytree(project / "apps" / "docs", source)
     shutil.copy(project / "tests" / "package" / "consumer" / "pier.cpp", source / "api")
     shutil.copy(project / "tests" / "package" / "consumer" / "pier.toml", source / "api")
-    Site(project, source).write()
+    run_page = project / "build" / f"ashlar-{version_of(project)}-browser.html"
+    Site(project, source, run_page.is_file()).write()
     environment = {**os.environ, "ASHLAR_VERSION": version_of(project),
                    "ASHLAR_DOXYGEN_XML": str(write_doxygen(project, output)),
                    "PYTHONPATH": os.pathsep.join([str(options.module.resolve()), os.environ.get("PYTHONPATH", "")])}
     done = subprocess.run([sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", "-d",
                            output / "doctrees", source, output / "html"], env=environment, check=False)
     if done.returncode == 0:
+        if run_page.is_file():
+            shutil.copy(run_page, output / "html" / RUN_PAGE)
         print(output / "html" / "index.html")
     return done.returncode
 

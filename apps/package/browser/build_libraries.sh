@@ -27,9 +27,10 @@ cxx="ccache clang++ ${flags[*]} -D_LIBCPP_ABI_VERSION=2 -fno-threadsafe-statics 
 defined() { llvm-nm --defined-only "$system_libraries/libc.a" 2>/dev/null | awk 'NF == 3 { print $3 }' | sort -u; }
 needed() { llvm-nm --undefined-only "$system_libraries/libc.a" 2>/dev/null | awk 'NF == 2 { print $2 }' | sort -u; }
 comm -23 <(needed) <(defined) >"$root/javascript_functions"
-host=(--host=none CC="$cc" CXX="$cxx" AR="$archiver" RANLIB=llvm-ranlib CFLAGS=-O2
-  LDFLAGS="-nostdlib -L$system_libraries -Wl,--entry=main -Wl,--allow-undefined-file=$root/javascript_functions"
-  LIBS='-lc -lcompiler_rt -lc++-except -lc++abi-except')
+# Options of the linker are the compiler's, since some checks pass no others.
+link="-Qunused-arguments -nostdlib -L$system_libraries -Wl,--entry=main -lc -lcompiler_rt"
+link="$link -Wl,--allow-undefined-file=$root/javascript_functions"
+host=(--host=none CC="$cc $link" CXX="$cxx $link -lc++-except -lc++abi-except" AR="$archiver" RANLIB=llvm-ranlib CFLAGS=-O2)
 build_compilers=()
 read -ra compile <<<"$cc"
 cmake_options=(-DASHLAR_BROWSER_LIBRARIES="$root" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
