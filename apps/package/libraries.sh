@@ -30,15 +30,17 @@ configured() {
   make install
 }
 
-# use: by_cmake NAME FOLDER OPTION...
+# use: by_cmake NAME FOLDER OPTION...: in the build's folder, where HDF5 looks for what its own programs write.
 by_cmake() {
   local name=$1 source=$root/sources/$1/$2
   shift 2
-  cmake -S "$source" -B "$root/sources/$name-build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  mkdir -p "$root/sources/$name-build"
+  cd "$root/sources/$name-build"
+  cmake -S "$source" -B . -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" "${cmake_options[@]}" \
     -DCMAKE_INSTALL_PREFIX="$root" -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=OFF "$@"
-  cmake --build "$root/sources/$name-build" -j"$jobs"
-  cmake --install "$root/sources/$name-build"
+  cmake --build . -j"$jobs"
+  cmake --install .
 }
 
 # use: compiled ARCHIVE FLAG... -- SOURCE...
@@ -87,6 +89,7 @@ build_qd() {
   fi
   cd "$root/sources/qd"
   [[ -x configure ]] || autoreconf -fi
+  touch docs/qd.pdf # its manual needs TeX
   configured qd --disable-fortran CXXFLAGS="$qd_flags"
 }
 
@@ -107,21 +110,23 @@ build_suitesparse() {
   local parts=(SuiteSparse_config AMD/Include COLAMD/Include CAMD/Include CCOLAMD/Include CHOLMOD/Include)
   mkdir -p "$root/include/suitesparse"
   cp SuiteSparse_config/*.h {AMD,COLAMD,CAMD,CCOLAMD,CHOLMOD}/Include/*.h "$root/include/suitesparse"
-  compiled cholmod "${parts[@]/#/-I}" -DDINT -DNTIMER -I"$root/include" -- SuiteSparse_config/SuiteSparse_config.c \
+  compiled cholmod "${parts[@]/#/-I}" -DDINT -DNTIMER -I"$root/include" -- "$here/../complex_blas.c" \
+    SuiteSparse_config/SuiteSparse_config.c \
     {AMD,COLAMD,CAMD,CCOLAMD}/Source/*.c CHOLMOD/{Check,Cholesky,Core,MatrixOps,Modify,Partition,Supernodal}/cholmod_*.c
 }
 
-# use: openblas OPTION...: its own versions of the few functions of LAPACK that CHOLMOD calls are enough.
+# use: openblas OPTION...: real numbers alone; its own versions of the few functions of LAPACK that CHOLMOD calls are enough.
 openblas() {
   unpack openblas
   cd "$root/sources/openblas"
-  make -j"$jobs" libs HOSTCC=gcc CROSS=1 NOFORTRAN=1 NO_SHARED=1 USE_THREAD=0 NO_CBLAS=1 NO_LAPACKE=1 BUILD_SINGLE=0 \
-    BUILD_COMPLEX=0 BUILD_DOUBLE=1 BUILD_COMPLEX16=1 MAKE_NB_JOBS="$jobs" "$@"
+  make libs HOSTCC=gcc CROSS=1 NOFORTRAN=1 NO_SHARED=1 USE_THREAD=0 NO_CBLAS=1 NO_LAPACKE=1 BUILD_SINGLE=1 BUILD_DOUBLE=1 \
+    SMALL_MATRIX_OPT=0 MAKE_NB_JOBS="$jobs" "$@"
   cp libopenblas*-r*.a "$root/lib/libopenblas.a"
 }
 
 build_hdf5() {
   unpack hdf5
+  sed -i '/sys\/wait.h/d' "$root/sources/hdf5/src/H5private.h"
   by_cmake hdf5 . -DHDF5_BUILD_TOOLS=OFF -DHDF5_BUILD_EXAMPLES=OFF -DHDF5_BUILD_HL_LIB=OFF -DBUILD_TESTING=OFF \
     -DHDF5_BUILD_CPP_LIB=OFF -DHDF5_ENABLE_Z_LIB_SUPPORT=ON -DHDF5_ENABLE_SZIP_SUPPORT=OFF
 }
@@ -130,8 +135,10 @@ build_fmt() { unpack fmtlib; by_cmake fmtlib . -DFMT_TEST=OFF -DFMT_DOC=OFF; }
 build_muparser() { unpack muparser; by_cmake muparser . -DENABLE_SAMPLES=OFF -DENABLE_OPENMP=OFF; }
 build_googletest() { unpack googletest; by_cmake googletest .; }
 
+# Debian's corrections compare with 1 what CMake's settings define without a value.
 build_expat() {
   unpack expat
+  sed -i 's/^#cmakedefine XML_DTD$/& 1/' "$root/sources/expat/expat/expat_config.h.cmake"
   by_cmake expat expat -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF -DEXPAT_BUILD_TESTS=OFF \
     -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_DOCS=OFF
 }

@@ -5,6 +5,7 @@ Checks that the tree is ready, builds and tests it, and writes the files of a re
 
   ashlar-VERSION.tar.gz, .zip            the sources, as committed
   ashlar-VERSION-linux-ARCH.tar.gz       the program, its libraries, the wheel: runs without packages
+  ashlar-VERSION-windows-x86_64.zip      the program for Windows, with --windows
   ashlar-VERSION-cp*-manylinux_*.whl     the Python module, for pip
   *.deb                                  Debian packages
   ashlar-VERSION-book.zip                the documentation site, where Sphinx and Doxygen are
@@ -16,6 +17,7 @@ Checks that the tree is ready, builds and tests it, and writes the files of a re
   --out DIR      folder of the files, new or empty (default: build/release-files)
   --build DIR    use this build as it is, without building and testing
   --skip-tests   build, but do not test
+  --windows      the archive for Windows too; needs what apps/docs/howto/windows.md lists, and builds its libraries once
   --tag          at the end, tag the commit as vVERSION (nothing is pushed)'
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -25,12 +27,14 @@ out=$root/build/release-files
 build=
 given=no
 tests=yes
+windows=no
 tag=no
 while (($#)); do
   case $1 in
     --out) out=$(realpath -m -- "${2:?--out needs a folder}"); shift ;;
     --build) build=$(realpath -- "${2:?--build needs a folder}"); given=yes; tests=no; shift ;;
     --skip-tests) tests=no ;;
+    --windows) windows=yes ;;
     --tag) tag=yes ;;
     --help) echo "$usage"; exit 0 ;;
     *) printf 'error: unknown option %s\n%s\n' "$1" "$usage" >&2; exit 2 ;;
@@ -81,6 +85,13 @@ write_binaries() {
   tar -xzf "$out/$name-linux-$(uname -m).tar.gz" -C "$out" --strip-components=1 --wildcards '*/sbom.spdx.json'
 }
 
+write_windows() {
+  say 'archive for Windows'
+  bash apps/package/windows/make_windows.sh
+  cp "build/$name-windows-x86_64.zip" "$out"
+  [[ $tests == no ]] || /usr/bin/python3 tests/windows/windows_test.py build/windows/apps/ashlar.exe "$build/apps/ashlar"
+}
+
 write_pages() {
   say 'pages'
   local work
@@ -108,6 +119,7 @@ check_tree
 [[ -n $build ]] || build_and_test
 write_sources
 write_binaries
+[[ $windows == no ]] || write_windows
 write_pages
 write_browser
 (cd "$out" && sha256sum -- * >SHA256SUMS.new && mv SHA256SUMS.new SHA256SUMS)

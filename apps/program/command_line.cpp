@@ -71,6 +71,7 @@ void refuse_on_ranks(const std::vector<std::string>& arguments) {
 int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::ostream& err,
                   const RunRanks* ranks) {
   CLI::App program("Ashlar: high-order 3-D discontinuous deformation analysis", "ashlar");
+  program.allow_windows_style_options(false);  // "/folder/scene.toml" is a name of a file on every system
   CommandContext context{out, err, exit_status::done, ranks};
   program.require_subcommand(1);
   program.set_version_flag("--version", version_text, "Version of the program, its compiler and libraries");

@@ -12,11 +12,13 @@
 #include "apps/results/system/this_process.hpp"
 
 // When loaded, OpenBLAS reads the number of threads from its environment; each allocates address space at once. It is
-// used with one thread, and this replacement of its function prevents others.
+// used with one thread, and this replacement of its function prevents others. That of Windows is built for one.
+#ifndef _WIN32
 extern "C" int openblas_num_threads_env();
 extern "C" int openblas_num_threads_env() {
   return 1;
 }
+#endif
 
 namespace ashlar {
 namespace {

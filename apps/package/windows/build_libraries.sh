@@ -27,6 +27,9 @@ source "$here/../libraries.sh"
 
 # The kernels are chosen when the program starts: those for AVX2, or those that all 64-bit processors can run.
 build_openblas() {
+  unpack openblas
+  # Debian's compiler says "12-posix" for its version, which would count as older than 4.7, without AVX2.
+  (cd "$root/sources/openblas" && sed -i 's/-dumpversion\( |\|`\)/-dumpversion | cut -f1 -d-\1/' c_check Makefile.{system,x86_64})
   openblas CC=$triple-gcc-posix FC=true AR="$archiver" RANLIB=$triple-gcc-ranlib-posix \
     TARGET=PRESCOTT DYNAMIC_ARCH=1 DYNAMIC_LIST=HASWELL BINARY=64 USE_LOCKING=1 NUM_THREADS=64
 }

@@ -65,6 +65,12 @@ std::size_t mbrtowc(wchar_t* unit, const char* text, std::size_t bytes, std::mbs
   return 3;
 }
 
+/// Beside mbrtowc in the C library, which would bring its own of both.
+std::size_t mbrlen(const char* text, std::size_t bytes, std::mbstate_t* state) {
+  static std::mbstate_t own_state{};
+  return mbrtowc(nullptr, text, bytes, state == nullptr ? &own_state : state);
+}
+
 /// The first of two units is kept in the state, and writes nothing.
 std::size_t wcrtomb(char* text, wchar_t unit, std::mbstate_t* state) {
   static std::mbstate_t own_state{};

@@ -35,7 +35,7 @@ TEST_F(FrameFields, AreThoseOfTheRegister) {
   // A block that is bolted and bonded to the ground, under water and a load.
   write_text(scene_, R"(
 analysis = { type = "static" }
-contact = { friction_angle = 30, cohesion = 1e5, fracture_energy = { tension = 10, shear = 10 } }
+contact = { friction_angle = 30, cohesion = 1e5, tensile_strength = 1e4, fracture_energy = { tension = 10, shear = 10 } }
 output = { fields = ["displacement", "velocity", "stress", "principal_stress"] }
 material = [{ name = "rock", density = 2000, young_modulus = 1e10, poisson_ratio = 0.2 }]
 bolt = [{ name = "bar", from = [0.5, 0.5, 0.8], to = [0.5, 0.5, -0.8], area = 1e-4, bond_stiffness = 1e8 }]
