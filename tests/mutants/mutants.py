@@ -31,7 +31,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = ["geometry", "mechanics", "solver", "apps"]
 # Sources tested from outside only, not part of the libraries of a layer's test program.
-OUTSIDE = ["apps/program/main.cpp", "apps/python/*", "*/windows/*"]
+OUTSIDE = ["apps/program/main.cpp", "apps/python/*", "*/windows/*", "*/browser/*"]
 MEMORY = 8 << 30  # bytes that a test program may take
 # Binary operators stand between spaces, which those of templates, references and pointers do not.
 OPERATORS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ",

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/results/system/named_file.hpp"
 #include "apps/results/system/output_file.hpp"
 #include "apps/results/system/this_process.hpp"
 
@@ -92,7 +93,7 @@ void refuse_results(const std::filesystem::path& folder) {
 
 /// Refuses a folder without marker unless it may be used.
 void refuse_strange_folder(const std::filesystem::path& folder, ClaimPurpose purpose) {
-  if (std::filesystem::is_empty(folder)) return;
+  if (names_in(folder).empty()) return;
   if (!looks_like_results(folder)) {
     throw ClaimRefused(fmt::format(
         "folder {} is not empty and was not made by ashlar: choose another by --out", folder.string()));

@@ -18,4 +18,14 @@ NamedFile named_file(const std::filesystem::path& path) {
           .is_folder = S_ISDIR(status.st_mode)};
 }
 
+std::vector<std::filesystem::path> names_in(const std::filesystem::path& folder) {
+  std::error_code reason;
+  std::vector<std::filesystem::path> names;
+  for (auto entry = std::filesystem::directory_iterator(folder, reason);
+       !reason && entry != std::filesystem::directory_iterator(); entry.increment(reason))
+    names.push_back(entry->path().filename());
+  if (reason) throw std::system_error(reason, "cannot read folder " + folder.string());
+  return names;
+}
+
 }  // namespace ashlar

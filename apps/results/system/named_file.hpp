@@ -1,8 +1,9 @@
-// Kind, size and identity of a file or folder by its name: of a link itself, not of its target.
+// Kind, size and identity of a file or folder by its name, of a link itself, not of its target; names in a folder.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace ashlar {
 
@@ -20,5 +21,8 @@ struct NamedFile {
 
 /// @throws std::system_error "cannot find <path>: <reason>"
 [[nodiscard]] NamedFile named_file(const std::filesystem::path& path);
+
+/// Names of all that is in a folder, in no order. @throws std::system_error "cannot read folder <path>: <reason>"
+[[nodiscard]] std::vector<std::filesystem::path> names_in(const std::filesystem::path& folder);
 
 }  // namespace ashlar

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/results/system/named_file.hpp"
 #include "apps/results/text/atomic_file.hpp"
 
 namespace ashlar {
@@ -38,12 +39,13 @@ std::string frame_file(const std::string& series, int step) {
 
 void remove_vtu_files_but(const std::filesystem::path& folder,
                           const std::vector<std::filesystem::path>& kept) {
-  if (!std::filesystem::is_directory(folder / "frames")) return;
-  const std::set<std::filesystem::path> names(kept.begin(), kept.end());
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
-    if (entry.symlink_status().type() == std::filesystem::file_type::regular &&
-        is_frame_name(entry.path().filename().string()) && !names.contains(entry.path()))
-      std::filesystem::remove(entry.path());
+  const std::filesystem::path frames = folder / "frames";
+  if (!std::filesystem::is_directory(frames)) return;
+  const std::set<std::filesystem::path> needed(kept.begin(), kept.end());
+  for (const std::filesystem::path& name : names_in(frames)) {
+    const std::filesystem::path file = frames / name;
+    if (is_frame_name(name.string()) && !needed.contains(file) && named_file(file).is_plain)
+      std::filesystem::remove(file);
   }
 }
 

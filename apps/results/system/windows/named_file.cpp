@@ -3,6 +3,7 @@
 #include <io.h>
 #include <windows.h>
 
+#include <string>
 #include <system_error>
 
 #include "apps/results/system/windows/open_file.hpp"
@@ -27,6 +28,25 @@ NamedFile named_file(const std::filesystem::path& path) {
           .bytes = (std::uint64_t{found.nFileSizeHigh} << 32U) | found.nFileSizeLow,
           .is_plain = is_disk && !is_folder && !is_link,
           .is_folder = is_folder && !is_link};
+}
+
+// Iterators of std::filesystem, as MinGW-w64 has them, stop at 260 letters.
+std::vector<std::filesystem::path> names_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> names;
+  WIN32_FIND_DATAW found{};
+  const HANDLE search = ::FindFirstFileW(name_for_windows(folder / L"*").c_str(), &found);
+  bool more = search != INVALID_HANDLE_VALUE;
+  while (more) {
+    const std::wstring name = found.cFileName;
+    if (name != L"." && name != L"..") names.emplace_back(name);
+    more = ::FindNextFileW(search, &found) != 0;
+  }
+  const DWORD end = ::GetLastError();
+  const std::error_code reason = reason_of_windows();
+  if (search != INVALID_HANDLE_VALUE) ::FindClose(search);
+  if (end != ERROR_NO_MORE_FILES && end != ERROR_FILE_NOT_FOUND)
+    throw std::system_error(reason, "cannot read folder " + folder.string());
+  return names;
 }
 
 }  // namespace ashlar

@@ -38,5 +38,17 @@ TEST(NamedFile, MustExist) {
                                                    "cannot find " + path + ": No such file")));
 }
 
+TEST(NamedFile, AFolderHasTheNamesOfAllInIt) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(names_in(folder.path()).empty());
+  write_text(folder / "a", "1");
+  std::filesystem::create_directory(folder / "b");
+  std::filesystem::create_symlink("nowhere", folder / ".c");
+  EXPECT_THAT(names_in(folder.path()), testing::UnorderedElementsAre("a", "b", ".c"));
+  const std::string path = (folder / "none").string();
+  EXPECT_THAT([&] { (void)names_in(path); }, testing::ThrowsMessage<std::system_error>(testing::StartsWith(
+                                                 "cannot read folder " + path + ": No such file")));
+}
+
 }  // namespace
 }  // namespace ashlar::named_file_test
