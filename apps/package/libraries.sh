@@ -5,6 +5,7 @@
 #   compile         the C compiler with its options
 #   archiver        ar for its objects
 #   cmake_options   what CMake needs besides the toolchain file
+#   gmp_options, qd_flags, metis_edit, cholmod_flags, cholmod_sources: of these libraries on that system
 # Each library has a function build_NAME; build_all calls those that have not succeeded yet.
 
 stop() { printf 'build_libraries.sh: %s\n' "$*" >&2; exit 1; }
@@ -67,7 +68,6 @@ build_headers() {
   cp -rT /usr/share/cmake/nlohmann_json "$root/share/cmake/nlohmann_json"
 }
 
-# The options gmp_options are those of its own, qd_flags the flags of QD.
 build_gmp() {
   unpack gmp
   mkdir -p "$root/sources/gmp/doc" # Debian's sources have no manual, which configure expects
@@ -97,7 +97,7 @@ build_qd() {
 build_metis() {
   unpack metis
   cd "$root/sources/metis"
-  sed -i '/sys\/resource.h/d' GKlib/gk_arch.h
+  sed -i "$metis_edit" GKlib/gk_arch.h
   compiled metis -w -Iinclude -Ilibmetis -IGKlib -DUSE_GKREGEX -DUSE_GKRAND -DNDEBUG -DNDEBUG2 -- libmetis/*.c \
     GKlib/{blas,error,gkregex,memory,mcore,random,sort,util,timers,pqueue,string}.c
   cp include/metis.h "$root/include"
@@ -110,7 +110,8 @@ build_suitesparse() {
   local parts=(SuiteSparse_config AMD/Include COLAMD/Include CAMD/Include CCOLAMD/Include CHOLMOD/Include)
   mkdir -p "$root/include/suitesparse"
   cp SuiteSparse_config/*.h {AMD,COLAMD,CAMD,CCOLAMD,CHOLMOD}/Include/*.h "$root/include/suitesparse"
-  compiled cholmod "${parts[@]/#/-I}" -DDINT -DNTIMER -I"$root/include" -- "$here/../complex_blas.c" \
+  compiled cholmod "${parts[@]/#/-I}" -DDINT -DNTIMER "${cholmod_flags[@]}" -I"$root/include" -- \
+    "$here/../complex_blas.c" "${cholmod_sources[@]}" \
     SuiteSparse_config/SuiteSparse_config.c \
     {AMD,COLAMD,CAMD,CCOLAMD}/Source/*.c CHOLMOD/{Check,Cholesky,Core,MatrixOps,Modify,Partition,Supernodal}/cholmod_*.c
 }

@@ -34,8 +34,11 @@ host=(--host=none CC="$cc $link" CXX="$cxx $link -lc++-except -lc++abi-except" A
 build_compilers=()
 read -ra compile <<<"$cc"
 cmake_options=(-DASHLAR_BROWSER_LIBRARIES="$root" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-gmp_options=(--disable-assembly)
+gmp_options=(--disable-assembly limb=longlong) # limbs of 64 bits, which CGAL needs, and which are faster
 qd_flags='-O2 -ffp-contract=off'
+metis_edit=''
+cholmod_flags=(-Ddpotrf_=dpotrf_without_result)
+cholmod_sources=("$here/lapack.c")
 source "$here/../libraries.sh"
 
 build_zlib() {
@@ -47,7 +50,7 @@ build_zlib() {
 
 # The kernels in C, which a processor without vectors has.
 build_openblas() {
-  openblas CC="$cc" FC=true AR="$archiver" RANLIB=llvm-ranlib TARGET=RISCV64_GENERIC NO_LAPACK=1 NUM_THREADS=1
+  openblas CC="$cc" FC=true AR="$archiver" RANLIB=llvm-ranlib TARGET=RISCV64_GENERIC NUM_THREADS=1
 }
 
 build_all headers zlib gmp mpfr googletest fmt qd metis suitesparse openblas muparser expat

@@ -26,7 +26,8 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(ashlar_wasm "-mllvm -combiner-global-alias-analysis=false -mllvm -enable-emscripten-sjlj -mllvm -disable-lsr")
 set(ashlar_wasm "${ashlar_wasm} -Xclang -iwithsysroot/include/compat -isystem ${ASHLAR_BROWSER_LIBRARIES}/include")
 set(CMAKE_C_FLAGS_INIT "${ashlar_wasm}")
-set(CMAKE_CXX_FLAGS_INIT "${ashlar_wasm} -D_LIBCPP_ABI_VERSION=2 -fno-threadsafe-statics -fwasm-exceptions")
+set(ashlar_wasm_cxx "-D_LIBCPP_ABI_VERSION=2 -fno-threadsafe-statics -fwasm-exceptions")
+set(CMAKE_CXX_FLAGS_INIT "${ashlar_wasm} ${ashlar_wasm_cxx} -include ${CMAKE_CURRENT_LIST_DIR}/missing_names.hpp")
 # Memory as far as 32 bits reach, and twice the stack that a thread has in Linux. node has packages of Debian in a folder of
 # its own.
 set(ashlar_link "env NODE_PATH=/usr/share/nodejs em++ -fwasm-exceptions -O2 -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB")

@@ -23,6 +23,9 @@ compile=($triple-gcc-posix)
 cmake_options=(-DASHLAR_WINDOWS_LIBRARIES="$root")
 gmp_options=(--enable-fat)
 qd_flags='-O2 -ffp-contract=off'
+metis_edit='/sys\/resource.h/d' # a header that Windows has not
+cholmod_flags=()
+cholmod_sources=()
 source "$here/../libraries.sh"
 
 # The kernels are chosen when the program starts: those for AVX2, or those that all 64-bit processors can run.

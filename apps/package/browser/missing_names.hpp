@@ -1,0 +1,16 @@
+// What the standard library of emscripten 3.1.6 (LLVM 13) lacks of C++20: included before every source.
+#pragma once
+
+#include <version>
+
+#ifndef __cpp_lib_bit_cast
+namespace std {
+
+template <class To, class From>
+[[nodiscard]] constexpr To bit_cast(const From& from) noexcept {
+  static_assert(sizeof(To) == sizeof(From));
+  return __builtin_bit_cast(To, from);
+}
+
+}  // namespace std
+#endif
