@@ -48,9 +48,9 @@ build_zlib() {
   cp zlib.h zconf.h "$root/include"
 }
 
-# The kernels in C, which a processor without vectors has.
+# The kernels in C, which a processor without vectors has, without barriers between threads.
 build_openblas() {
-  openblas CC="$cc" FC=true AR="$archiver" RANLIB=llvm-ranlib TARGET=RISCV64_GENERIC NUM_THREADS=1
+  openblas CC="$cc -DMB= -DWMB= -DRMB=" FC=true AR="$archiver" RANLIB=llvm-ranlib TARGET=RISCV64_GENERIC ARCH=riscv64 OSNAME=Linux NUM_THREADS=1
 }
 
 build_all headers zlib gmp mpfr googletest fmt qd metis suitesparse openblas muparser expat
