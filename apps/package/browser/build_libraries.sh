@@ -34,12 +34,19 @@ host=(--host=none CC="$cc $link" CXX="$cxx $link -lc++-except -lc++abi-except" A
 build_compilers=()
 read -ra compile <<<"$cc"
 cmake_options=(-DASHLAR_BROWSER_LIBRARIES="$root" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-gmp_options=(--disable-assembly limb=longlong) # limbs of 64 bits, which CGAL needs, and which are faster
+gmp_options=(--disable-assembly)
 qd_flags='-O2 -ffp-contract=off'
 metis_edit=''
 cholmod_flags=(-Ddpotrf_=dpotrf_without_result)
 cholmod_sources=("$here/lapack.c")
 source "$here/../libraries.sh"
+
+# Limbs of 64 bits, which CGAL's Mpzf needs; configure has them for processors that it knows.
+build_gmp_64() {
+  unpack gmp
+  sed -i 's/^case \$limb_chosen in/limb_chosen=longlong\n&/' "$root/sources/gmp/configure"
+  build_gmp
+}
 
 build_zlib() {
   unpack zlib
@@ -53,4 +60,4 @@ build_openblas() {
   openblas CC="$cc -DMB= -DWMB= -DRMB=" FC=true AR="$archiver" RANLIB=llvm-ranlib TARGET=RISCV64_GENERIC ARCH=riscv64 OSNAME=Linux NUM_THREADS=1
 }
 
-build_all headers zlib gmp mpfr googletest fmt qd metis suitesparse openblas muparser expat
+build_all headers zlib gmp_64 mpfr googletest fmt qd metis suitesparse openblas muparser expat
