@@ -45,8 +45,8 @@ struct LevelTension {
 
 /// All cracks of a run: with the blocks of the scene they determine those of the run.
 struct CrackRecord {
-  std::vector<CrackEvent> events;  ///< in order
-  std::vector<int> left_whole;     ///< blocks at their strength that have no room for a crack, increasing
+  std::vector<CrackEvent> events;    ///< in order
+  std::vector<int> left_whole;       ///< blocks at their strength that have no room for a crack, increasing
   std::vector<LevelTension> levels;  ///< the last ones of a static stage, at most two, by time
 };
 
