@@ -163,7 +163,7 @@ void Run::take_step() {
 void Run::take_iteration() {
   if (!record_->goes_on()) return interrupt();
   Simulation& simulation = stages_->simulation();
-  const double end_time = answer().bracket ? scene().analysis.end_time : stages_->end_of_loads();
+  const double end_time = stages_->end_of_loads();
   const int before = simulation.steps();
   StaticStatus found = StaticStatus::balancing;
   const bool attempted = attempt([&] {

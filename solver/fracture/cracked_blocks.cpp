@@ -108,7 +108,7 @@ void CrackedBlocks::note_level(double time, const std::vector<int>& asked,
 }
 
 void CrackedBlocks::begin_stage() {
-  // No tension without loads: if there were some, the first prediction is too early, and the next one right.
+  // A block that is under tension then has too early a first prediction, and a right one after it.
   record_.levels = {{0.0, std::vector<double>(origins_.size(), 0.0)}};
 }
 

@@ -32,7 +32,7 @@ class CrackedBlocks {
   int divide(Simulation& run, int stage, bool level);
   /// Makes the cracks of an earlier run in the blocks of this one, as placed. @param run as given to the constructor
   void repeat(const CrackRecord& record, Simulation& run);
-  /// The first stage, or another one, begins: its load levels are no longer those of record().
+  /// A stage begins: record() has no load levels but its start, at which no block is under tension.
   void begin_stage();
 
   /// Time at which a block is expected to reach its strength, by its tension at the last two load levels: the next level

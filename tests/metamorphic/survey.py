@@ -34,7 +34,7 @@ ITERATIONS = 0.02    # share of their number, and one
 OTHER_SCENES = {"wedge": (1e-6, 1e-2)}  # there the faces of its hulls, flat to nine digits, are flat to rounding
 # Columns with one unit, which have one largest value.
 FAMILIES = [re.compile(pattern) for pattern in (
-    r"momentum\.[xyz]$", r"energy\.", r".*\.s[xyz][xyz]$", r".*\.v[xyz]$", r".*\.u[xyz]$", r".*\.r[xyz]$",
+    r"momentum\.[xyz]$", r"angular_momentum\.[xyz]$", r"energy\.", r".*\.s[xyz][xyz]$", r".*\.v[xyz]$", r".*\.u[xyz]$", r".*\.r[xyz]$",
     r".*\.(axial|shear|normal)_force$")]
 # Rounding decides the state of a point at a limit.
 STATES = re.compile(r"contacts\.(open|locked|sliding)$|open_close\.iterations$")
@@ -195,11 +195,11 @@ def differences(before, after, shift, shares):
     return found
 
 
-def differences_of_rows(before, after, shift, summary, shares):
+def differences_of_rows(before, after, shift, summary, shares, skipped=(ABOUT_ORIGIN, STATES)):
     found, kinds = [], {}
     names = {measure["name"] for measure in summary["scene"].get("measure", [])}
     for column in before[0] if before else []:
-        if ABOUT_ORIGIN.match(column) or STATES.match(column):
+        if any(pattern.match(column) for pattern in skipped):
             continue
         family = next((pattern.pattern for pattern in FAMILIES if pattern.match(column)), column)
         kinds.setdefault(family, []).append(column)

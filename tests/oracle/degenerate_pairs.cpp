@@ -34,7 +34,7 @@ constexpr int kSmallest = -1;
 constexpr int kMostBits = 90;
 
 mpz_class whole(std::int64_t value) {
-  return mpz_class(static_cast<double>(value));  // exact: long has 32 bits on some systems
+  return mpz_class(std::to_string(value));  // long has 32 bits on some systems
 }
 
 IntegerVector apply(const std::array<IntegerVector, 3>& rows, const LatticePoint& x) {

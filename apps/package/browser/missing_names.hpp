@@ -1,4 +1,4 @@
-// What the standard library of emscripten 3.1.6 (LLVM 13) lacks of C++20: included before every source.
+// Names of C++20 that the standard library of emscripten 3.1.6 (LLVM 13) has not. Included before every source.
 #pragma once
 
 #include <version>

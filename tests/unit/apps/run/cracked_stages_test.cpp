@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/results/frames/grid_arrays.hpp"
@@ -26,16 +28,20 @@ double tension_of(const Run& run) {
   return run.motion("bar.crack1.a", Vector3(0.0, 0.05, 0.05)).stress(0, 0);
 }
 
+ashlar::Run run_of_bar(const std::vector<std::string>& overrides) {
+  Diagnostics diagnostics;
+  auto scene = load_scene(std::filesystem::path(ASHLAR_DATA_DIR) / "verification/cracks/bar.toml", overrides,
+                          diagnostics);
+  if (!scene) throw std::invalid_argument(diagnostics.sorted().front().message);
+  return ashlar::Run(std::move(*scene));
+}
+
 void expect_the_same_tension(const std::vector<std::string>& overrides) {
   std::vector<std::string> all = {
       "stage=[{ name = \"first\", analysis = { end_time = 1.4 } }, { name = \"second\", analysis = { "
       "end_time = 0.4 } }]"};
   all.insert(all.end(), overrides.begin(), overrides.end());
-  Diagnostics diagnostics;
-  auto scene =
-      load_scene(std::filesystem::path(ASHLAR_DATA_DIR) / "verification/cracks/bar.toml", all, diagnostics);
-  ASSERT_TRUE(scene.has_value()) << (diagnostics.good() ? "" : diagnostics.sorted().front().message);
-  Run run(std::move(*scene));
+  ashlar::Run run = run_of_bar(all);
   while (run.step() && !run.stage_follows()) {
   }
   ASSERT_EQ(run.stage(), 1);
@@ -61,11 +67,7 @@ TEST(CrackedStages, InMotion) {
 
 // Opened by w = 1.4 u0 - u0 t/f_t under the tension t, a linear fall has dissipated f_t w/2.
 TEST(CrackedStages, FacesHaveTheEnergyOfTheCrack) {
-  Diagnostics diagnostics;
-  auto scene = load_scene(std::filesystem::path(ASHLAR_DATA_DIR) / "verification/cracks/bar.toml",
-                          {"analysis.end_time=1.4"}, diagnostics);
-  ASSERT_TRUE(scene.has_value());
-  ashlar::Run run(std::move(*scene));
+  ashlar::Run run = run_of_bar({"analysis.end_time=1.4"});
   while (run.step()) {
   }
   const double width = elongation * (1.4 - tension_at(1.4) / strength);
