@@ -1,6 +1,6 @@
-"""Answers, loads, supports, bolts and water of a page. Run by view_test.py, with its pages."""
+"""Answers, loads, supports, bolts and water of a page: actions_test.py ASHLAR SCENES."""
 from browser import Picture
-from pages import PageTest
+from pages import PageTest, main
 
 LOAD, HELD, ROLLER = (0x7a, 0x2f, 0xb5), (0x3d, 0x46, 0x54), (0x0b, 0x72, 0x85)
 
@@ -89,3 +89,7 @@ class ActionsTest(PageTest):
         count = self.evaluate("data.blocks.filter(({fixed}) => !fixed).length")
         for summary, words in answers:
             self.assertEqual(self.evaluate(f"answerText({summary})"), words.replace("of 27", f"of {count}"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,10 +1,10 @@
-"""Rigid blocks in pages and pictures, and displacements relative to a block. Run by view_test.py, with its pages."""
+"""Rigid blocks in pages and pictures, and displacements relative to a block: blocks_test.py ASHLAR SCENES."""
 import math
 import subprocess
 
 from browser import Picture
 from legibility import DRAWN
-from pages import Pages, PageTest
+from pages import Pages, PageTest, main
 
 
 class BlocksTest(PageTest):
@@ -52,7 +52,7 @@ class BlocksTest(PageTest):
 
     def test_rigid_blocks_in_pictures(self):
         path = Pages.folder / "rigid.png"
-        done = subprocess.run([Pages.program, "picture", Pages.folder / "rigid", "-o", path, "--size", "480x320", "--from",
+        done = subprocess.run([Pages.program, "picture", Pages.folder_of("rigid"), "-o", path, "--size", "480x320", "--from",
                                "front", "--color", "stone", "--thrust-line", "--contacts", "none"],
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -122,7 +122,7 @@ class BlocksTest(PageTest):
         colours = {}
         for more in ((), ("--relative-to", "none"), ("--relative-to", "base"), ("--relative-to", "still")):
             path = Pages.folder / "relative.png"
-            done = subprocess.run([Pages.program, "picture", Pages.folder / "moved", "-o", path, "--size", "320x200", *more],
+            done = subprocess.run([Pages.program, "picture", Pages.folder_of("moved"), "-o", path, "--size", "320x200", *more],
                                   capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""), more)
             colours[more] = path.read_bytes()
@@ -209,3 +209,7 @@ class BlocksTest(PageTest):
         middle, sides = self.evaluate(DRAWN)
         self.assertGreater(middle, 0.01)
         self.assertEqual(sides, 0, "the scene is cut off")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,41 +1,74 @@
 """Pages of `ashlar view` for all tests, with actions and views of a user."""
 import pathlib
 import subprocess
+import sys
+import tempfile
 import unittest
 
+from browser import Browser, find_chromium
+
 HERE = pathlib.Path(__file__).parent
+WIDTH, HEIGHT = 900, 520
 
 
 class Pages:
-    """The scenes simulated and viewed once, and the browser that all tests share."""
+    """The scenes, each simulated and viewed when a test first asks for it, and the browser that all tests share."""
     browser = None
-    files = {}
+    _written = set()
 
     @classmethod
-    def write(cls, program, scenes, folder):
-        cls.program, cls.folder = program, folder
-        falling = scenes / "falling_block.toml"
-        curved = ["--set", "analysis.end_time=0.01", "--set", "output.curved=true"]
-        stress = ["--set", 'output.fields=["displacement", "velocity", "stress"]']
-        for name, scene, more in (("falling", falling, ["--set", "analysis.end_time=0.56"]),
-                                  ("curved", falling, curved),
-                                  ("slope", HERE / "slope.toml", []), ("column", HERE / "column.toml", []),
-                                  ("moved", HERE / "moved_base.toml", []), ("rigid", HERE / "rigid_arch.toml", []),
-                                  ("acted", HERE / "acted_on.toml", []),
-                                  ("arch", scenes / "arch_stands.toml", stress),
-                                  ("wall", scenes / "wall.toml", ["--set", "analysis.end_time=0.02", *stress])):
-            out = folder / name
-            subprocess.run([program, "run", scene, "--out", out, "--quiet", "--view", *more], check=True)
+    def folder_of(cls, name):
+        """The result folder of one of the scenes below, with its page."""
+        folder = cls.folder / name
+        if name not in cls._written:
+            scene, more = cls._scenes()[name]
+            subprocess.run([cls.program, "run", scene, "--out", folder, "--quiet", "--view", *more], check=True)
             if name == "slope":
-                cls.add_key_blocks(program, scene, out)
-            cls.files[name] = (out / "view.html").as_uri()
+                cls._add_key_blocks(scene, folder)
+            cls._written.add(name)
+        return folder
 
+    @classmethod
+    def address_of(cls, name):
+        return (cls.folder_of(name) / "view.html").as_uri()
 
-    @staticmethod
-    def add_key_blocks(program, scene, folder):
-        subprocess.run([program, "blocks", scene, "--out", folder, "--removable", "0,0,-1"], check=True,
+    @classmethod
+    def _scenes(cls):
+        demo = cls.scenes
+        stress = ["--set", 'output.fields=["displacement", "velocity", "stress"]']
+        return {"falling": (demo / "falling_block.toml", ["--set", "analysis.end_time=0.56"]),
+                "curved": (demo / "falling_block.toml",
+                           ["--set", "analysis.end_time=0.01", "--set", "output.curved=true"]),
+                "slope": (HERE / "slope.toml", []), "column": (HERE / "column.toml", []),
+                "moved": (HERE / "moved_base.toml", []), "rigid": (HERE / "rigid_arch.toml", []),
+                "acted": (HERE / "acted_on.toml", []),
+                "arch": (demo / "arch_stands.toml", stress),
+                "wall": (demo / "wall.toml", ["--set", "analysis.end_time=0.02", *stress])}
+
+    @classmethod
+    def _add_key_blocks(cls, scene, folder):
+        subprocess.run([cls.program, "blocks", scene, "--out", folder, "--removable", "0,0,-1"], check=True,
                        capture_output=True)
-        subprocess.run([program, "view", folder], check=True, capture_output=True)
+        subprocess.run([cls.program, "view", folder], check=True, capture_output=True)
+
+
+def main():
+    """Runs the tests of the calling file: FILE ASHLAR SCENES, the program and the folder of the demo scenes; skipped (77)
+    where there is no Chromium."""
+    chromium = find_chromium()
+    if chromium is None:
+        print("\n*** NOT TESTED: no chromium found, the pages of `ashlar view` were not opened in a browser ***\n",
+              file=sys.stderr)
+        sys.exit(77)
+    Pages.program, Pages.scenes = map(pathlib.Path, (sys.argv.pop(1), sys.argv.pop(1)))
+    with tempfile.TemporaryDirectory() as folder:
+        Pages.folder = pathlib.Path(folder)
+        Pages.browser = Browser(chromium, WIDTH, HEIGHT)
+        try:
+            result = unittest.main(verbosity=2, exit=False).result
+        finally:
+            Pages.browser.close()
+    sys.exit(0 if result.wasSuccessful() else 1)
 
 
 class PageTest(unittest.TestCase):
@@ -50,7 +83,7 @@ class PageTest(unittest.TestCase):
     def open(self, name, wishes=""):
         # A change of the part behind # alone does not load a page.
         self.browser.open("about:blank")
-        self.browser.open(Pages.files[name] + wishes)
+        self.browser.open(Pages.address_of(name) + wishes)
         self.evaluate("started.then(() => 0)")
         self.wait_for_painting()
 

@@ -1,16 +1,16 @@
-"""Contents of `ashlar picture` and of the picture of a study. Run by view_test.py, with its pages."""
+"""Contents of `ashlar picture` and of the picture of a study: picture_test.py ASHLAR SCENES."""
 import subprocess
 import unittest
 
 from browser import Picture
-from pages import Pages
+from pages import Pages, main
 
 
 class PictureTest(unittest.TestCase):
     def picture(self, name, *options):
         path = Pages.folder / "picture.png"
         path.unlink(missing_ok=True)
-        command = [Pages.program, "picture", Pages.folder / name, "-o", path, *options]
+        command = [Pages.program, "picture", Pages.folder_of(name), "-o", path, *options]
         done = subprocess.run(command, capture_output=True, text=True)
         return done, Picture(path.read_bytes()) if path.exists() else None
 
@@ -82,3 +82,7 @@ class PictureTest(unittest.TestCase):
         done, picture = self.picture("column", "--color", "velocity")
         self.assertEqual((done.returncode, picture), (2, None))
         self.assertIn("no velocity", done.stderr)
+
+
+if __name__ == "__main__":
+    main()

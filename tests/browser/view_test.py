@@ -1,21 +1,6 @@
-"""Opens the pages of `ashlar view` in Chromium and acts like a user; skipped (77) where it is missing.
-
-Use: view_test.py ASHLAR SCENES, the program and the folder of the demo scenes.
-"""
-import os
-import pathlib
-import sys
-import tempfile
-import unittest
-
-from actions_test import ActionsTest  # run with those below
-from blocks_test import BlocksTest  # the same
-from browser import Browser, Picture, find_chromium
-from legibility import DRAWN, TOO_FAINT, TOO_WIDE
-from pages import Pages, PageTest
-from picture_test import PictureTest  # the same
-
-WIDTH, HEIGHT = 900, 520
+"""Opens the pages of `ashlar view` in Chromium and acts like a user: view_test.py ASHLAR SCENES."""
+from browser import Picture
+from pages import HEIGHT, PageTest, main
 
 
 class ViewTest(PageTest):
@@ -295,45 +280,6 @@ class ViewTest(PageTest):
         a, b = (Picture(png).pixels(0, 60, 500, 450) for png in (before, after))
         self.assertLess(sum(x != y for x, y in zip(a, b)), 0.02 * len(a))
 
-    def test_every_mode_is_drawn_fits_and_is_legible(self):
-        modes = {"usual": "", "thrust": "#thrust=yes&color=stone&contacts=none", "opening": "#joints=opening&frame=LAST",
-                 "shear": "#joints=shear&frame=LAST", "state": "#joints=state&frame=LAST", "section": "#section=x,0.1",
-                 "vectors": "#vectors=displacement&frame=LAST", "stress": "#color=sigma_3&crosses=yes&frame=LAST",
-                 "si": "#units=si&range=percentile&frame=LAST", "dark": "#theme=dark&frame=LAST", "top": "#from=top"}
-        keep = os.environ.get("ASHLAR_SCREENSHOTS")
-        for width, height in ((1400, 900), (420, 800)):
-            self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
-                              mobile=False)
-            self.addCleanup(self.browser.call, "Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT,
-                            deviceScaleFactor=1, mobile=False)
-            for name in ("slope", "arch", "wall"):
-                self.open(name)
-                last = self.evaluate("data.frames[data.frames.length - 1].index")
-                for mode, wishes in modes.items():
-                    with self.subTest(f"{name} {mode} {width}"):
-                        self.open(name, wishes.replace("LAST", str(last)))
-                        png = self.browser.screenshot()
-                        if keep:
-                            (pathlib.Path(keep) / f"{name}_{mode}_{width}.png").write_bytes(png)
-                        middle, sides = self.evaluate(DRAWN)
-                        self.assertGreater(middle, 0.01, "next to nothing is drawn")
-                        self.assertEqual(sides, 0, "the scene is cut off")
-                        self.assertEqual(self.evaluate(TOO_WIDE), [])
-                        self.assertEqual(self.evaluate(TOO_FAINT), [])
-
 
 if __name__ == "__main__":
-    chromium = find_chromium()
-    if chromium is None:
-        print("\n*** NOT TESTED: no chromium found, the pages of `ashlar view` were not opened in a browser ***\n",
-              file=sys.stderr)
-        sys.exit(77)
-    program, scenes = map(pathlib.Path, (sys.argv.pop(1), sys.argv.pop(1)))
-    with tempfile.TemporaryDirectory() as folder:
-        Pages.write(program, scenes, pathlib.Path(folder))
-        Pages.browser = Browser(chromium, WIDTH, HEIGHT)
-        try:
-            result = unittest.main(verbosity=2, exit=False).result
-        finally:
-            Pages.browser.close()
-    sys.exit(0 if result.wasSuccessful() else 1)
+    main()
