@@ -84,7 +84,7 @@ struct IterationSettings {
   static constexpr int line_search_steps = 30;
   static constexpr double line_search_tolerance = 0.05;  ///< of the work at the start of a line
   static constexpr int plain_passes = 8;                 ///< before bounds are extrapolated
-  static constexpr double nearly_settled =
+  static constexpr double nearly_converged =
       30.0;  ///< multiple of the tolerance below which the last factor is used again
   double residual_tolerance =
       1e-10;  ///< convergence of an open-close iteration, relative to the largest force on a block
@@ -122,7 +122,7 @@ struct RestSettings {
   bool sleeps = true;
   static constexpr int window = 30;  ///< steps, > 0: longer windows are safer and slower
   /// >= 0, of contact_distance: largest motion of a block in two windows
-  static constexpr double way_share = 0.01;
+  static constexpr double path_share = 0.01;
   /// 0 to 1: largest ratio of the path in a window to that in the last one. Growing or steady motion is not at rest
   static constexpr double fading = 0.9;
   /// >= 0, of the largest force on a block: its largest residual at rest

@@ -34,7 +34,7 @@ void take_estimate(const AccuracyEstimate& estimate, AccuracyState& choice) {
 }
 
 /// @return false if it was ended
-bool choose_in_statics(const LoadedScene& loaded, int threads, const std::function<bool()>& goes_on,
+bool choose_in_statics(const LoadedScene& loaded, int threads, const std::function<bool()>& may_continue,
                        AccuracyState& choice) {
   const Scene& scene = loaded.scene;
   BuiltSimulation built = built_or_thrown(loaded, threads);
@@ -45,7 +45,7 @@ bool choose_in_statics(const LoadedScene& loaded, int threads, const std::functi
   AccuracyRounds rounds;
   const double given = simulation.system().settings().search.chord_tolerance;
   // The run itself tells why blocks of these orders find no equilibrium.
-  if (find_equilibrium(simulation, scene.analysis.end_time, request, goals, rounds, goes_on) ==
+  if (find_equilibrium(simulation, scene.analysis.end_time, request, goals, rounds, may_continue) ==
       StaticStatus::balancing)
     return false;
   choice.rounds = static_cast<int>(rounds.orders.size() + rounds.sub_faces.size());
@@ -57,7 +57,7 @@ bool choose_in_statics(const LoadedScene& loaded, int threads, const std::functi
 }
 
 /// @return false if it was ended
-bool choose_in_motion(const LoadedScene& loaded, int threads, const std::function<bool()>& goes_on,
+bool choose_in_motion(const LoadedScene& loaded, int threads, const std::function<bool()>& may_continue,
                       AccuracyState& choice) {
   const Scene& scene = loaded.scene;
   const AccuracyRequest request = request_of(scene);
@@ -66,11 +66,11 @@ bool choose_in_motion(const LoadedScene& loaded, int threads, const std::functio
     BuiltSimulation built = built_or_thrown(*with_choice(loaded, choice), threads);
     Simulation& simulation = built.simulation;
     if (scene.analysis.initial_state == SceneAnalysis::InitialState::statics &&
-        start_in_statics(simulation, goes_on).end == StaticStart::End::interrupted)
+        start_in_statics(simulation, may_continue).end == StaticStart::End::interrupted)
       return false;
     const std::vector<Measure> measures = measures_of(scene, simulation.blocks());
     const GoalValues values = [&](const Simulation& now) { return goals_of(now, measures); };
-    std::optional<PilotRun> pilot = pilot_run(simulation, scene.analysis.end_time, values, goes_on);
+    std::optional<PilotRun> pilot = pilot_run(simulation, scene.analysis.end_time, values, may_continue);
     if (!pilot) return false;
     ++choice.rounds;
     std::vector<Goal> goals = values(simulation);
@@ -102,11 +102,11 @@ double shortest_gap(const Scene& scene) {
 }  // namespace
 
 std::optional<AccuracyState> choose_for_accuracy(const LoadedScene& loaded, int threads,
-                                                 const std::function<bool()>& goes_on) {
+                                                 const std::function<bool()>& may_continue) {
   AccuracyState choice;
   const bool statics = loaded.scene.analysis.type == SceneAnalysis::Type::statics;
-  const bool done = statics ? choose_in_statics(loaded, threads, goes_on, choice)
-                            : choose_in_motion(loaded, threads, goes_on, choice);
+  const bool done = statics ? choose_in_statics(loaded, threads, may_continue, choice)
+                            : choose_in_motion(loaded, threads, may_continue, choice);
   return done ? std::optional(std::move(choice)) : std::nullopt;
 }
 

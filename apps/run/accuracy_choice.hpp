@@ -15,10 +15,10 @@
 
 namespace ashlar {
 
-/// @param loaded a scene with an accuracy. @param goes_on called between steps: false ends the choice
+/// @param loaded a scene with an accuracy. @param may_continue called between steps: false ends the choice
 /// @return empty if it was ended. @throws std::runtime_error if blocks of a chosen order cannot be built
 [[nodiscard]] std::optional<AccuracyState> choose_for_accuracy(const LoadedScene& loaded, int threads,
-                                                               const std::function<bool()>& goes_on);
+                                                               const std::function<bool()>& may_continue);
 
 /// The scene with the chosen orders and chord tolerance in the place of automatic ones.
 [[nodiscard]] std::shared_ptr<const LoadedScene> with_choice(const LoadedScene& loaded,

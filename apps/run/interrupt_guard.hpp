@@ -9,7 +9,7 @@ namespace ashlar {
 /// Ends a run once a stop was requested. @pre an InterruptGuard exists during the run
 class InterruptObserver : public RunObserver {
  public:
-  [[nodiscard]] bool goes_on() override { return !InterruptGuard::interrupted(); }
+  [[nodiscard]] bool may_continue() override { return !InterruptGuard::interrupted(); }
 };
 
 }  // namespace ashlar

@@ -138,16 +138,16 @@ void Run::take_step() {
   Simulation& simulation = stages_->simulation();
   const double end_time = scene().analysis.end_time;
   if (!simulation.reached(end_time)) {
-    if (!record_->goes_on()) return interrupt();
+    if (!record_->may_continue()) return interrupt();
     const bool automatic = whole().analysis.automatic_step;
-    StepStatus taken = StepStatus::accepted;
+    StepStatus status = StepStatus::accepted;
     const bool attempted = attempt([&] {
       if (automatic)
         choose_step(simulation, motion_request(scene()), history_->goals(), preparation_->accuracy()->motion);
-      taken = simulation.step(end_time);
+      status = simulation.step(end_time);
     });
     if (!attempted) return;
-    if (taken != StepStatus::accepted) {
+    if (status != StepStatus::accepted) {
       const Rejection& last = simulation.rejections().back();
       return end_stage(
           RunStatus::failed,
@@ -161,7 +161,7 @@ void Run::take_step() {
 }
 
 void Run::take_iteration() {
-  if (!record_->goes_on()) return interrupt();
+  if (!record_->may_continue()) return interrupt();
   Simulation& simulation = stages_->simulation();
   const double end_time = stages_->end_of_loads();
   const int before = simulation.steps();
@@ -273,7 +273,7 @@ void Run::end_undecided() {
   const std::string factors =
       answer().bracket ? ""
                        : undecided_factors(simulation(), scene().analysis.end_time, stages_->threads(),
-                                           [this] { return record_->goes_on(); });
+                                           [this] { return record_->may_continue(); });
   end_stage(RunStatus::not_converged, describe_unconverged(simulation(), findings_->changes()) +
                                           (factors.empty() ? "" : "; by limit analysis, " + factors));
 }

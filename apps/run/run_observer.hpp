@@ -22,7 +22,7 @@ class RunObserver {
   RunObserver& operator=(const RunObserver&) = delete;
 
   /// Asked before each step, iteration and search; false ends the run as interrupted.
-  [[nodiscard]] virtual bool goes_on() { return true; }
+  [[nodiscard]] virtual bool may_continue() { return true; }
 
   // A search for a factor, before the run begins.
   /// @param limit true: by limit analysis, false: by static analyses. @param reason why; the scene leaves it open
@@ -61,7 +61,7 @@ class RunObservers {
   /// False if one of them ends the run.
   [[nodiscard]] bool go_on() const {
     for (const auto& observer : all_)
-      if (!observer->goes_on()) return false;
+      if (!observer->may_continue()) return false;
     return true;
   }
   template <class... Parameters, class... Arguments>

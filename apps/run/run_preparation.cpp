@@ -58,7 +58,8 @@ void RunPreparation::choose_accuracy(RunStages& stages, const RunRecord& record,
 
 void RunPreparation::start_statically(RunStages& stages, const RunRecord& record, RunEnd& end) {
   if (starts_from_statics(stages.scene()) && !checkpoint_) {
-    const StaticStart start = start_in_statics(stages.simulation(), [&record] { return record.goes_on(); });
+    const StaticStart start =
+        start_in_statics(stages.simulation(), [&record] { return record.may_continue(); });
     end.message = start.message;
     if (start.end == StaticStart::End::failed) end.status = RunStatus::failed;
     if (start.end == StaticStart::End::interrupted) end.status = RunStatus::interrupted;

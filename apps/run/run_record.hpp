@@ -32,7 +32,7 @@ class RunRecord {
   void add(std::shared_ptr<RunObserver> observer) { observers_.add(std::move(observer)); }
   [[nodiscard]] const RunObservers& observers() const { return observers_; }
   /// False if an observer of any process ends the run. Collective.
-  [[nodiscard]] bool goes_on() const { return !group_.any(!observers_.go_on()); }
+  [[nodiscard]] bool may_continue() const { return !group_.any(!observers_.go_on()); }
 
   /// Tells that the run begins. Collective. @throws what an observer has thrown, on all processes
   void begin(const Run& run) const;

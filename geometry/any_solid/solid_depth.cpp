@@ -32,9 +32,9 @@ int face_with(const Polyhedron& solid, const ContactFeature& feature) {
 /// Depth of an inner point. The nearest point is rounded: if it coincides with the point, the direction out is the
 /// normal of its face.
 SolidDepth depth_of(const Polyhedron& solid, const Vector3& x, double depth, const ClosestPoint& nearest) {
-  const Vector3 way = nearest.point - x;
+  const Vector3 offset = nearest.point - x;
   const int face = face_with(solid, nearest.feature);
-  return {depth, x, way.squaredNorm() > 0.0 ? way.normalized() : solid.faces()[at(face)].normal, face};
+  return {depth, x, offset.squaredNorm() > 0.0 ? offset.normalized() : solid.faces()[at(face)].normal, face};
 }
 
 /// Shares of a segment.

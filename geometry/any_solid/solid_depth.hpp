@@ -23,7 +23,7 @@ namespace ashlar {
 struct SolidDepth {
   double depth = 0.0;  ///< m, > 0, distance of the two points, rounded
   Vector3 place;       ///< the point inside, m
-  Vector3 way_out;     ///< unit, from the point to the nearest one of the surface
+  Vector3 outward;     ///< unit, from the point to the nearest one of the surface
   int face = -1;       ///< the face with the nearest point, or one that meets there
 };
 

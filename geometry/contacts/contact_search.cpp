@@ -235,8 +235,8 @@ std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, co
 }
 
 /// True if another edge of the same block that ends at a point crosses too.
-bool goes_on(const std::vector<EdgeCrossing>& crossings, CrossedSide EdgeContact::*side,
-             const EdgeCrossing& one, int point) {
+bool may_continue(const std::vector<EdgeCrossing>& crossings, CrossedSide EdgeContact::*side,
+                  const EdgeCrossing& one, int point) {
   return point < 0 || std::any_of(crossings.begin(), crossings.end(), [&](const EdgeCrossing& other) {
            const auto& ends = (other.contact.*side).ends;
            return ends != (one.contact.*side).ends && (ends[0] == point || ends[1] == point);
@@ -246,8 +246,8 @@ bool goes_on(const std::vector<EdgeCrossing>& crossings, CrossedSide EdgeContact
 /// Adds crossings within both edges, and those beyond ends where the surfaces continue with other crossing edges.
 void add_crossings(const std::vector<EdgeCrossing>& crossings, PairContacts& contacts) {
   for (const EdgeCrossing& one : crossings) {
-    if (goes_on(crossings, &EdgeContact::of_a, one, one.beyond_a) &&
-        goes_on(crossings, &EdgeContact::of_b, one, one.beyond_b))
+    if (may_continue(crossings, &EdgeContact::of_a, one, one.beyond_a) &&
+        may_continue(crossings, &EdgeContact::of_b, one, one.beyond_b))
       contacts.edges.push_back(one.contact);
   }
 }

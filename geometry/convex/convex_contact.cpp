@@ -48,14 +48,14 @@ class ConvexContactFinder {
     result.rule = exact.rule;
     result.entrance = exact.entrance;
     result.resolution = resolution_;
-    if (taken_.a.empty()) {
+    if (accepted_.a.empty()) {
       result.region = crossing_region(a_, b_, heights_, ladder_);
     } else {
-      const ContactHeight height(taken_.w, height_of(taken_), ladder_);
+      const ContactHeight height(accepted_.w, height_of(accepted_), ladder_);
       const double length = height.length();
       result.gap = exact.relation == Relation::crossing ? -length : length;
-      const std::vector<int> loop_a = resolved_loop(a_, taken_.a), loop_b = resolved_loop(b_, taken_.b);
-      result.region = region_along(taken_.w, PlaneSetting::tilted, {a_, {a_.corners().data(), loop_a}},
+      const std::vector<int> loop_a = resolved_loop(a_, accepted_.a), loop_b = resolved_loop(b_, accepted_.b);
+      result.region = region_along(accepted_.w, PlaneSetting::tilted, {a_, {a_.corners().data(), loop_a}},
                                    {b_, {b_.corners().data(), loop_b}}, &height, ladder_);
     }
     result.decided_by = ladder_.counts;
@@ -87,15 +87,15 @@ class ConvexContactFinder {
     const std::vector<Vector3>& x = shape.corners();
     const auto reaches = [&](int v) {
       if (std::find(support.begin(), support.end(), v) != support.end()) return true;
-      if (is_within(taken_.w, {&x[v], &x[support[0]]}, resolution_.distance, false, ladder_)) return true;
+      if (is_within(accepted_.w, {&x[v], &x[support[0]]}, resolution_.distance, false, ladder_)) return true;
       return std::all_of(support.begin(), support.end(), [&](int p) {
-        return is_within(taken_.w, {&x[v], &x[p]}, resolution_.sine, true, ladder_);
+        return is_within(accepted_.w, {&x[v], &x[p]}, resolution_.sine, true, ladder_);
       });
     };
     std::vector<int> candidates;
     for (int v = 0; v < static_cast<int>(x.size()); ++v)
       if (reaches(v)) candidates.push_back(v);
-    return projected_hull(taken_.w, x.data(), candidates, ladder_);
+    return projected_hull(accepted_.w, x.data(), candidates, ladder_);
   }
 
   void apart(ClosestSimplex&& closest, const CrossingDetail& detail) {
@@ -108,7 +108,7 @@ class ConvexContactFinder {
     report_.normal = unit_vector(closest.w, ladder_);
     report_.rule = DirectionRule::closest_points;
     if (keep_direction_) {
-      taken_ = {{}, std::move(closest.w), std::move(closest.support_a), std::move(closest.support_b)};
+      accepted_ = {{}, std::move(closest.w), std::move(closest.support_a), std::move(closest.support_b)};
     } else if (const auto point = single_point(closest, height)) {
       report_.region = point_region(*point);
     } else {
@@ -245,7 +245,7 @@ class ConvexContactFinder {
     report_.normal = unit_vector(s.w, ladder_);
     report_.rule = rule;
     report_.entrance = s.entrance;
-    if (keep_direction_) taken_ = {s.entrance, s.w.copy(), s.a, s.b};
+    if (keep_direction_) accepted_ = {s.entrance, s.w.copy(), s.a, s.b};
   }
 
   const ConvexShape& a_;
@@ -255,7 +255,7 @@ class ConvexContactFinder {
   PredicateLadder ladder_;
   ConvexContact report_;
   bool keep_direction_ = false;  // in taken_, instead of the region of two that are apart
-  Support taken_;
+  Support accepted_;
 };
 
 // Apart from classify() so that no arithmetic moves across the change of the rounding mode.

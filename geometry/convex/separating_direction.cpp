@@ -76,9 +76,9 @@ class EdgeSides {
       }
       positive_[index(f, word)] = up;
       negative_[index(f, word)] = down;
-      const Word settled = up | down;
+      const Word decided = up | down;
       ladder_.counts.filter +=
-          settled == all >> static_cast<unsigned>(word_bits - count) ? count : std::popcount(settled);
+          decided == all >> static_cast<unsigned>(word_bits - count) ? count : std::popcount(decided);
     }
   }
 

@@ -9,8 +9,8 @@ namespace {
 
 // A face lies in direction way (n x d) from an edge along d. The body below the face is on the side of smaller angles
 // around d if the edge goes forwards: with d = z and n = x the face lies along -y, and the body along -x.
-FanSide fan_side(int edge, int face, int plane, int way, bool below) {
-  return {edge, face, plane, way, below != (way > 0)};
+FanSide fan_side(int edge, int face, int plane, int sense, bool below) {
+  return {edge, face, plane, sense, below != (sense > 0)};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ int EdgeFan::turn(const FanSide& a, const FanSide& b) const {
   const Integer determinant = along_[0] * (n[1] * m[2] - n[2] * m[1]) +
                               along_[1] * (n[2] * m[0] - n[0] * m[2]) +
                               along_[2] * (n[0] * m[1] - n[1] * m[0]);
-  return a.way * b.way * sgn(determinant);
+  return a.sense * b.sense * sgn(determinant);
 }
 
 /// Counted from the first side: along it, up to half a turn on, against it, more than half a turn.
@@ -61,7 +61,7 @@ int EdgeFan::quarter(const FanSide& side) const {
   const auto& n = complex_.plane(first_.plane).coefficients();
   const auto& m = complex_.plane(side.plane).coefficients();
   const Integer product = n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
-  return first_.way * side.way * sgn(product) > 0 ? 0 : 2;
+  return first_.sense * side.sense * sgn(product) > 0 ? 0 : 2;
 }
 
 bool EdgeFan::before(const FanSide& a, const FanSide& b) const {
@@ -70,8 +70,8 @@ bool EdgeFan::before(const FanSide& a, const FanSide& b) const {
   return of_a % 2 == 1 && turn(a, b) > 0;
 }
 
-bool EdgeFan::holds(int plane, int way) const {
-  const FanSide asked{-1, -1, plane, way, false};
+bool EdgeFan::holds(int plane, int sense) const {
+  const FanSide asked{-1, -1, plane, sense, false};
   const auto next =
       std::find_if(sides_.begin(), sides_.end(), [&](const FanSide& of) { return !before(of, asked); });
   if (next != sides_.end() && !before(asked, *next)) return false;
@@ -89,9 +89,9 @@ std::optional<int> EdgeFan::parting_plane() const {
     return sides_[0].plane;
   }
   for (const FanSide& side : sides_) {
-    const auto is_turned = [&](int way) {
+    const auto is_turned = [&](int sense) {
       return std::any_of(sides_.begin(), sides_.end(),
-                         [&](const FanSide& other) { return turn(side, other) == way; });
+                         [&](const FanSide& other) { return turn(side, other) == sense; });
     };
     if (is_turned(1) && is_turned(-1)) return side.plane;
   }

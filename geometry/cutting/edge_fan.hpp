@@ -14,7 +14,7 @@ struct FanSide {
   int edge;
   int face;  ///< as the caller numbers it
   int plane;
-  int way;     ///< 1 if the face, seen from above its plane, has the edge forwards, else -1
+  int sense;   ///< 1 if the face, seen from above its plane, has the edge forwards, else -1
   bool ahead;  ///< the cell is on the side to which angles increase, which is around the edge's direction
 };
 
@@ -45,7 +45,7 @@ class EdgeFan {
   /// By angle.
   [[nodiscard]] const std::vector<FanSide>& sides() const { return sides_; }
   /// True if the cell contains a half-plane that starts at the edge; false if that is along a face.
-  [[nodiscard]] bool holds(int plane, int way) const;
+  [[nodiscard]] bool holds(int plane, int sense) const;
   /// The plane of a face for the division of a nonconvex part around the edge, or of parts that meet in the edge
   /// only; empty if there is one convex part.
   [[nodiscard]] std::optional<int> parting_plane() const;

@@ -24,7 +24,7 @@ FlatView::FlatView(const ExactPlane& plane) {
     if (mpz_cmpabs(of[static_cast<std::size_t>(k)].get_mpz_t(),
                    of[static_cast<std::size_t>(axis_)].get_mpz_t()) > 0)
       axis_ = k;
-  way_ = sgn(of[static_cast<std::size_t>(axis_)]);
+  sense_ = sgn(of[static_cast<std::size_t>(axis_)]);
 }
 
 int FlatView::turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) const {
@@ -34,7 +34,7 @@ int FlatView::turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c
     return Integer(coordinate(p, u) * coordinate(q, v) - coordinate(p, v) * coordinate(q, u));
   };
   const Integer determinant = a.w * minor(b, c) - b.w * minor(a, c) + c.w * minor(a, b);
-  return way_ * sgn(determinant);
+  return sense_ * sgn(determinant);
 }
 
 // Each coordinate has an error u, each difference u more, products and their difference two more: less than 12 u
@@ -47,7 +47,7 @@ int FlatView::quick_turn(const Vector3& a, const Vector3& b, const Vector3& c) c
       std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
   const double bound =
       12.0 * 0x1p-53 * largest * (std::abs(p) + std::abs(q) + std::abs(r) + std::abs(s)) + 0x1p-1000;
-  return value > bound ? way_ : value < -bound ? -way_ : 0;
+  return value > bound ? sense_ : value < -bound ? -sense_ : 0;
 }
 
 int FlatView::compare(const ExactPoint& a, const ExactPoint& b) const {
@@ -61,14 +61,14 @@ int FlatView::compare_heights(const ExactPoint& a, const ExactPoint& b) const {
 
 bool FlatView::ray_meets(const ExactPoint& from, const ExactPoint& a, const ExactPoint& b) const {
   const bool a_above = compare_heights(a, from) > 0, b_above = compare_heights(b, from) > 0;
-  return a_above != b_above && turn(a, b, from) * way_ == (b_above ? 1 : -1);
+  return a_above != b_above && turn(a, b, from) * sense_ == (b_above ? 1 : -1);
 }
 
 std::array<Rational, 2> FlatView::seen(const ExactPoint& point) const {
   std::array<Rational, 2> result = {Rational(coordinate(point, (axis_ + 1) % 3), point.w),
                                     Rational(coordinate(point, (axis_ + 2) % 3), point.w)};
   for (Rational& number : result) number.canonicalize();
-  if (way_ < 0) std::swap(result[0], result[1]);
+  if (sense_ < 0) std::swap(result[0], result[1]);
   return result;
 }
 

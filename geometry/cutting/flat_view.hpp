@@ -27,8 +27,8 @@ class FlatView {
  private:
   [[nodiscard]] int quick_turn(const Vector3& a, const Vector3& b, const Vector3& c) const;
 
-  int axis_ = 0;  ///< of projection
-  int way_ = 1;   ///< of the normal along it
+  int axis_ = 0;   ///< of projection
+  int sense_ = 1;  ///< of the normal along it
 };
 
 }  // namespace ashlar

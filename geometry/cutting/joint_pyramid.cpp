@@ -59,9 +59,9 @@ bool slides_on_two(const std::vector<IntegerVector>& held, const IntegerVector& 
     for (std::size_t j = i + 1; j < held.size(); ++j) {
       const IntegerVector &m = held[i], &n = held[j];
       IntegerVector c = cross(m, n);
-      const int way = sgn(dot(c, r));
-      if (way == 0) continue;
-      if (way < 0) c = cross(n, m);
+      const int sense = sgn(dot(c, r));
+      if (sense == 0) continue;
+      if (sense < 0) c = cross(n, m);
       const Integer both = dot(m, n), of_m = dot(m, r), of_n = dot(n, r);
       const Integer on_m = dot(n, n) * of_m - both * of_n, on_n = dot(m, m) * of_n - both * of_m;
       if (sgn(on_m) < 0 || sgn(on_n) < 0 || !leads_away(c, held)) continue;

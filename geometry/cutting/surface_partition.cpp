@@ -214,9 +214,9 @@ class SurfacePartition {
       const auto [least, most] = std::minmax({turns[0], turns[1], turns[2]});
       if (least < 0 && most > 0) continue;
       const RationalVector normal = cross_product(difference(x[1], x[0]), difference(x[2], x[0]));
-      const int way = sgn(dot_product(normal, ray)) * sgn(dot_product(normal, x[0]));
+      const int sense = sgn(dot_product(normal, ray)) * sgn(dot_product(normal, x[0]));
       if (least == 0 || most == 0) return std::nullopt;
-      if (way > 0) odd = !odd;
+      if (sense > 0) odd = !odd;
     }
     return odd;
   }

@@ -142,7 +142,7 @@ void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
     const Vector3 arm = mesh.points[static_cast<std::size_t>(side.apex)] - from;
     return std::atan2(arm.dot(y), arm.dot(x));
   };
-  std::vector<bool> taken(sides.size(), false);
+  std::vector<bool> used(sides.size(), false);
   for (const EdgeSide& forward : sides) {
     if (!forward.forward) continue;
     // The outward normal of a forward triangle is axis x arm, a quarter turn on: the inside is behind it.
@@ -150,7 +150,7 @@ void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = sides.size();
     for (std::size_t k = 0; k < sides.size(); ++k) {
-      if (sides[k].forward || taken[k]) continue;
+      if (sides[k].forward || used[k]) continue;
       double turn = start - angle_of(sides[k]);
       while (turn <= coincident) turn += 2.0 * std::numbers::pi;
       while (turn > 2.0 * std::numbers::pi + coincident) turn -= 2.0 * std::numbers::pi;
@@ -159,7 +159,7 @@ void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
       nearest = k;
     }
     if (nearest == sides.size()) continue;
-    taken[nearest] = true;
+    used[nearest] = true;
     sets.unite(forward.triangle, sides[nearest].triangle);
   }
 }

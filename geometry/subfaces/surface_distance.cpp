@@ -67,9 +67,9 @@ double slab_of_gilbert(std::span<const Vector3> a, std::span<const Vector3> b) {
     if (!(distance > 0.0)) break;
     const Vector3 support = farthest(b, -nearest) - farthest(a, nearest);
     width = std::max(width, nearest.dot(support) / distance);
-    const Vector3 way = support - nearest;
-    if (width >= enough * distance || !(way.squaredNorm() > 0.0)) break;
-    nearest += std::clamp(-nearest.dot(way) / way.squaredNorm(), 0.0, 1.0) * way;
+    const Vector3 offset = support - nearest;
+    if (width >= enough * distance || !(offset.squaredNorm() > 0.0)) break;
+    nearest += std::clamp(-nearest.dot(offset) / offset.squaredNorm(), 0.0, 1.0) * offset;
   }
   return width;
 }

@@ -98,6 +98,8 @@ class BlockModel {
   /// True if the frame of linear elasticity turns with the block (theory.md section 4).
   [[nodiscard]] bool corotational() const { return !form_ && parts_->turns; }
   [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
+  /// Cube root of the volume, m.
+  [[nodiscard]] double size() const { return size_; }
 
   /// Undeformed and at rest.
   [[nodiscard]] BlockState initial_state() const;
@@ -182,6 +184,7 @@ class BlockModel {
 
   BlockDefinition definition_;
   PolynomialBasis basis_;
+  double size_;  ///< m
   std::shared_ptr<const BlockParts> parts_;
   SupportMotion motion_;
   Eigen::MatrixX3d natural_;  ///< shape without strain, (p, 3): with initial stress not the placed one

@@ -184,7 +184,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
   result.reserve(points.size());
   const Places old = places();
   std::vector<int> sources;
-  std::vector<int> taken(entries_.size(), 0);
+  std::vector<int> used(entries_.size(), 0);
   for (const ContactPoint& point : points) {
     PointMemory fresh;
     fresh.intact = point.gap <= bond_distance;
@@ -192,7 +192,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
     const bool same_faces = found.has_value();
     if (!found) found = near(point, old, false);
     sources.push_back(found ? found->only_source : -1);
-    if (sources.back() >= 0) ++taken[static_cast<std::size_t>(sources.back())];
+    if (sources.back() >= 0) ++used[static_cast<std::size_t>(sources.back())];
     if (!found) {
       result.push_back(fresh);
       continue;
@@ -205,7 +205,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
     result.push_back(memory);
   }
   for (std::size_t k = 0; keep_forces && k < points.size(); ++k) {
-    if (sources[k] < 0 || taken[static_cast<std::size_t>(sources[k])] != 1 || points[k].area == 0.0) continue;
+    if (sources[k] < 0 || used[static_cast<std::size_t>(sources[k])] != 1 || points[k].area == 0.0) continue;
     const double ratio = entries_[static_cast<std::size_t>(sources[k])].area / points[k].area;
     result[k].normal_multiplier *= ratio;
     result[k].shear_multiplier *= ratio;

@@ -211,8 +211,8 @@ MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double s
 /// @param stiffness in shear, N/m. @param normal_at of slip, m. @return slip, m
 template <class NormalAt>
 double lift(double trial, double stiffness, double dilation, NormalAt normal_at, MeanNormal& normal) {
-  const double slip = plastic_slip(trial, stiffness, [&](double way) {
-    const ShearBound bound = normal_at(way).bound;
+  const double slip = plastic_slip(trial, stiffness, [&](double shift) {
+    const ShearBound bound = normal_at(shift).bound;
     return ShearBound{bound.value, bound.slope * dilation};
   });
   MeanNormal risen = normal_at(slip);
@@ -233,10 +233,10 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   }
   Eigen::Vector2d start_slip = start_place.tail<2>();
   if (start.state == ContactState::sliding) start_slip = elastic_slip(law, start, start_slip);
-  const Eigen::Vector2d way = end_place.tail<2>() - start_place.tail<2>();
+  const Eigen::Vector2d shift = end_place.tail<2>() - start_place.tail<2>();
   const double stiffness = 0.5 * law.shear_stiffness + law.dashpots.shear;
-  Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
-  if (law.dashpots.shear > 0.0) trial -= law.dashpots.shear * way;
+  Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * shift);
+  if (law.dashpots.shear > 0.0) trial -= law.dashpots.shear * shift;
   const double length = trial.norm();
   const StepDilation dilation = step_dilation(law, end_place[0]);
   const auto normal_at = [&](double slip) {
@@ -257,7 +257,7 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   const bool end_open = end.state == ContactState::open;
   const double limit = normal.bound.value;
   if (limit <= 0.0 && end_open) return step;
-  Eigen::Vector2d end_slip = start_slip + way;
+  Eigen::Vector2d end_slip = start_slip + shift;
   if (locked) {
     mean.force.tail<2>() = within(limit, trial, length);
     mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness);

@@ -64,8 +64,8 @@ template <class Law>
     const auto& [tangent, landing_from] = law.dilation;
     if (!(landing_from > 0.0)) return {tangent, 0.0};
     if (!(gap < 0.0)) return {};
-    const double way = landing_from - gap;
-    return {tangent * -gap / way, tangent * landing_from / (way * way)};
+    const double travel = landing_from - gap;
+    return {tangent * -gap / travel, tangent * landing_from / (travel * travel)};
   }
   return {};
 }
@@ -205,8 +205,8 @@ template <class Law>
     const double resistance = shear_resistance(law);
     if (!locked && at.dilation.tangent > 0.0 && resistance > 0.0) {
       const double lift = normal_resistance(law) * at.dilation.tangent;
-      at.slid = plastic_slip(at.length, resistance, [&](double way) {
-        const ShearBound bound = shear_bound(law, at.normal + lift * way, at.dilation.tangent);
+      at.slid = plastic_slip(at.length, resistance, [&](double travel) {
+        const ShearBound bound = shear_bound(law, at.normal + lift * travel, at.dilation.tangent);
         return ShearBound{bound.value, bound.slope * lift};
       });
       at.normal += lift * at.slid;

@@ -75,8 +75,8 @@ struct DeepEnd {
 class DeepEndSearch {
  public:
   DeepEndSearch(const PlacedSurface& a, const PlacedSurface& b, const std::vector<CellOverlap>& overlaps,
-                const SurfaceContinues& goes_on)
-      : a_(a), b_(b), overlaps_(overlaps), goes_on_(goes_on), tolerance_(outline_tolerance(a, b)) {}
+                const SurfaceContinues& continues)
+      : a_(a), b_(b), overlaps_(overlaps), continues_(continues), tolerance_(outline_tolerance(a, b)) {}
 
   /// @param cells overlaps of two faces
   [[nodiscard]] DeepEnd of(const std::vector<std::size_t>& cells) const {
@@ -117,18 +117,18 @@ class DeepEndSearch {
       const double gap = 0.5 * (overlap.gaps[k] + overlap.gaps[next]);
       const double near = std::max(0.0, gap) + std::max(tolerance_, 0.1 * (highest - deepest));
       const ViewFrame& frame = overlap.frame;
-      const auto goes_on = [&](bool rim_of_a, int face) {
-        return goes_on_({rim_of_a, face, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
-                         outward.x() * frame.e1 + outward.y() * frame.e2, near});
+      const auto continues = [&](bool rim_of_a, int face) {
+        return continues_({rim_of_a, face, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
+                           outward.x() * frame.e1 + outward.y() * frame.e2, near});
       };
       const std::optional<bool> a_ends = ends_at(a_, overlap.cell_a, normal_b, frame, side, tolerance_);
       const std::optional<bool> b_ends = ends_at(b_, overlap.cell_b, normal_a, frame, side, tolerance_);
       if (!a_ends && !b_ends) continue;
       // If the surface continues at the deep end, sides less aligned with it do not count instead.
       if (facing > result.facing + alike) result = {facing, false, false};
-      if (a_ends.value_or(false) && !goes_on(true, b_.surface().cells[at(overlap.cell_b)].face))
+      if (a_ends.value_or(false) && !continues(true, b_.surface().cells[at(overlap.cell_b)].face))
         result.of_a = true;
-      if (b_ends.value_or(false) && !goes_on(false, a_.surface().cells[at(overlap.cell_a)].face))
+      if (b_ends.value_or(false) && !continues(false, a_.surface().cells[at(overlap.cell_a)].face))
         result.of_b = true;
     }
   }
@@ -136,7 +136,7 @@ class DeepEndSearch {
   const PlacedSurface& a_;
   const PlacedSurface& b_;
   const std::vector<CellOverlap>& overlaps_;
-  const SurfaceContinues& goes_on_;
+  const SurfaceContinues& continues_;
   double tolerance_;
 };
 
@@ -158,15 +158,15 @@ bool is_first_by_kind(const ContactBody& a, const ContactBody& b, bool otherwise
 }  // namespace
 
 std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
-                                    const std::vector<CellOverlap>& overlaps, const SurfaceContinues& goes_on,
-                                    bool otherwise) {
+                                    const std::vector<CellOverlap>& overlaps,
+                                    const SurfaceContinues& continues, bool otherwise) {
   std::map<std::array<int, 2>, std::vector<std::size_t>> of_faces;
   for (std::size_t n = 0; n < overlaps.size(); ++n) {
     of_faces[{a.placed->surface().cells[at(overlaps[n].cell_a)].face,
               b.placed->surface().cells[at(overlaps[n].cell_b)].face}]
         .push_back(n);
   }
-  const DeepEndSearch search(*a.placed, *b.placed, overlaps, goes_on);
+  const DeepEndSearch search(*a.placed, *b.placed, overlaps, continues);
   std::vector<bool> result(overlaps.size(), is_first_by_kind(a, b, otherwise));
   for (const auto& [faces, cells] : of_faces) {
     const DeepEnd end = search.of(cells);

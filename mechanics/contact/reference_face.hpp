@@ -35,6 +35,6 @@ using SurfaceContinues = std::function<bool(const RimPlace&)>;
 /// @return (#overlaps)
 [[nodiscard]] std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
                                                   const std::vector<CellOverlap>& overlaps,
-                                                  const SurfaceContinues& goes_on, bool otherwise = false);
+                                                  const SurfaceContinues& continues, bool otherwise = false);
 
 }  // namespace ashlar

@@ -329,8 +329,8 @@ AveragedStep softened_step(const PointLaw& law, const PointResponse& start,
   const double start_gap = start_place[0], end_gap = end_place[0];
   Eigen::Vector2d start_slip = start_place.tail<2>();
   if (start.state == ContactState::sliding) start_slip = elastic_slip(law, start, start_slip);
-  const Eigen::Vector2d way = end_place.tail<2>() - start_place.tail<2>();
-  const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
+  const Eigen::Vector2d shift = end_place.tail<2>() - start_place.tail<2>();
+  const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * shift);
   const double length = trial.norm();
   const MeanBounds bounds = mean_bounds(law, start_gap, end_gap, length);
   const double limit = bounds.limit.value;
@@ -343,7 +343,7 @@ AveragedStep softened_step(const PointLaw& law, const PointResponse& start,
   set_mean_normal(law, bounds.normal, spring.stiffness, mean);
   if (limit <= 0.0 && spring.open) return step;
   if (!spring.open) end.state = ContactState::locked;
-  Eigen::Vector2d end_slip = start_slip + way;
+  Eigen::Vector2d end_slip = start_slip + shift;
   if (!slides(law, length, limit)) {
     mean.force.tail<2>() = length > limit ? Eigen::Vector2d(limit / length * trial) : trial;
     mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(0.5 * law.shear_stiffness);

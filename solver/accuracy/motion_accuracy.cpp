@@ -235,7 +235,7 @@ class PilotRecord {
   PilotRecord(const Simulation& simulation, const GoalValues& goals)
       : simulation_(simulation), goals_(goals), start_(simulation.states()) {
     run_.round.energies.assign(start_.size(), 0.0);
-    run_.round.lacks = unknown_lacks(simulation);
+    run_.round.missing_energy = unknown_energy(simulation);
     note_values();
   }
 
@@ -284,7 +284,8 @@ class PilotRecord {
     note_goals();
     if (simulation_.steps() % order_interval != 0) return;
     for (const OrderError& error : order_errors(simulation_))
-      run_.round.lacks[at(error.block)] = std::max(run_.round.lacks[at(error.block)], error.lacks);
+      run_.round.missing_energy[at(error.block)] =
+          std::max(run_.round.missing_energy[at(error.block)], error.missing_energy);
   }
 
   void note_goals() {
@@ -313,11 +314,11 @@ class PilotRecord {
 
 /// Runs to the end and takes it back. @return empty if it was ended
 std::optional<PilotRun> pilot_in_steps(Simulation& simulation, double end_time, const GoalValues& goals,
-                                       const std::function<bool()>& goes_on) {
+                                       const std::function<bool()>& may_continue) {
   const SimulationSnapshot before = simulation.snapshot();
   PilotRecord record(simulation, goals);
   bool goes = true;
-  while (!simulation.reached(end_time) && (goes = goes_on())) {
+  while (!simulation.reached(end_time) && (goes = may_continue())) {
     if (simulation.step(end_time) != StepStatus::accepted) break;
     record.note();
   }
@@ -348,12 +349,12 @@ bool moves_plainly(const Simulation& simulation, double end_time) {
 
 /// Pilots of few steps, enough for blocks without vibrations and orders. @return the pilots; fewer than two: ended
 std::vector<PilotRun> coarse_pilots(Simulation& simulation, double end_time, const GoalValues& goals,
-                                    const std::function<bool()>& goes_on) {
+                                    const std::function<bool()>& may_continue) {
   const double own_step = simulation.system().settings().time_step;
   std::vector<PilotRun> pilots;
   for (const double count : coarse_steps) {
     simulation.set_time_step(end_time / count);
-    const auto pilot = pilot_in_steps(simulation, end_time, goals, goes_on);
+    const auto pilot = pilot_in_steps(simulation, end_time, goals, may_continue);
     if (!pilot) break;
     pilots.push_back(*pilot);
   }
@@ -364,14 +365,14 @@ std::vector<PilotRun> coarse_pilots(Simulation& simulation, double end_time, con
 }  // namespace
 
 std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time, const GoalValues& goals,
-                                  const std::function<bool()>& goes_on) {
+                                  const std::function<bool()>& may_continue) {
   if (moves_plainly(simulation, end_time) &&
       end_time > many_steps * simulation.system().settings().time_step) {
-    const std::vector<PilotRun> coarse = coarse_pilots(simulation, end_time, goals, goes_on);
+    const std::vector<PilotRun> coarse = coarse_pilots(simulation, end_time, goals, may_continue);
     if (coarse.size() < 2) return std::nullopt;
     if (agree(coarse.front().scales, coarse.back().scales)) return coarse.back();
   }
-  return pilot_in_steps(simulation, end_time, goals, goes_on);
+  return pilot_in_steps(simulation, end_time, goals, may_continue);
 }
 
 void choose_step(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,

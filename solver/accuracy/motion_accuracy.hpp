@@ -82,10 +82,10 @@ struct PilotRun {
 
 /// Runs to the end, in steps of the settings, and takes it back. A step that cannot be taken ends it. Rigid blocks under
 /// constant loads have no vibrations: if 16 and 32 steps give the same scales within 20 % and no impacts, these are enough.
-/// @param goes_on called before each step: false ends it. @return empty if it was ended
+/// @param may_continue called before each step: false ends it. @return empty if it was ended
 [[nodiscard]] std::optional<PilotRun> pilot_run(Simulation& simulation, double end_time,
                                                 const GoalValues& goals,
-                                                const std::function<bool()>& goes_on);
+                                                const std::function<bool()>& may_continue);
 
 /// Before a step: chooses its length, if a test is due.
 void choose_step(Simulation& simulation, const MotionRequest& request, const GoalValues& goals,

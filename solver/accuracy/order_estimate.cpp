@@ -32,8 +32,8 @@ double sum_over(const std::vector<double>& values) {
 
 /// True if the lacks of all moving blocks that deform are those of their next orders.
 bool knows_next_orders(const AccuracyRound& round) {
-  return !round.of_changes &&
-         std::none_of(round.lacks.begin(), round.lacks.end(), [](double lack) { return lack < 0.0; });
+  return !round.of_changes && std::none_of(round.missing_energy.begin(), round.missing_energy.end(),
+                                           [](double lack) { return lack < 0.0; });
 }
 
 /// Rounds from the first one on in which a block deforms: supports may leave no motion to low orders, and nothing changes.
@@ -91,7 +91,7 @@ double relative_to(double error, const Goal& goal) {
 
 double error_of_energy(const AccuracyRound& round) {
   double missing = 0.0;
-  for (const double lack : round.lacks) missing += std::max(lack, 0.0);
+  for (const double lack : round.missing_energy) missing += std::max(lack, 0.0);
   return missing > 0.0 ? missing / (sum_over(round.energies) + missing) : 0.0;
 }
 
@@ -120,17 +120,17 @@ int slow_block_of(const std::vector<AccuracyRound>& rounds) {
   if (rounds.size() < 2) return -1;
   const AccuracyRound& last = rounds.back();
   const AccuracyRound& before = rounds[rounds.size() - 2];
-  const auto worst = std::max_element(last.lacks.begin(), last.lacks.end());
-  const auto block = static_cast<std::size_t>(worst - last.lacks.begin());
+  const auto worst = std::max_element(last.missing_energy.begin(), last.missing_energy.end());
+  const auto block = static_cast<std::size_t>(worst - last.missing_energy.begin());
   // A block that has kept its order has kept its lack.
   if (last.of_changes && last.orders[block] == before.orders[block]) return -1;
-  return *worst > 0.0 && *worst > slow_lack * before.lacks[block] ? static_cast<int>(block) : -1;
+  return *worst > 0.0 && *worst > slow_lack * before.missing_energy[block] ? static_cast<int>(block) : -1;
 }
 
-void take_lacks_of_changes(const Simulation& simulation, const std::vector<AccuracyRound>& rounds,
-                           AccuracyRound& now) {
+void take_missing_energy_of_changes(const Simulation& simulation, const std::vector<AccuracyRound>& rounds,
+                                    AccuracyRound& now) {
   const AccuracyRound& earlier = rounds[rounds.size() - 2];
-  for (std::size_t k = 0; k < now.lacks.size(); ++k) {
+  for (std::size_t k = 0; k < now.missing_energy.size(); ++k) {
     const BlockModel& block = simulation.blocks()[k];
     if (now.energies[k] == 0.0 || earlier.energies[k] == 0.0) continue;
     const Eigen::MatrixX3d& position = now.positions[k];
@@ -141,9 +141,9 @@ void take_lacks_of_changes(const Simulation& simulation, const std::vector<Accur
     const Eigen::MatrixX3d force = block.elastic(position).force - block.elastic(before).force;
     const double energy = 0.5 * std::abs(force.cwiseProduct(position - before).sum());
     if (risen >= 2)
-      now.lacks[k] = energy;
-    else if (now.lacks[k] >= 0.0)
-      now.lacks[k] = std::max(energy, now.lacks[k]);
+      now.missing_energy[k] = energy;
+    else if (now.missing_energy[k] >= 0.0)
+      now.missing_energy[k] = std::max(energy, now.missing_energy[k]);
   }
 }
 

@@ -40,8 +40,8 @@ namespace ashlar {
 /// two rounds ago. A block that has risen by fewer than two orders since, or did not deform then, keeps the larger lack
 /// of the last round, and one without any estimate stays so.
 /// @param rounds at least two, with positions. @param now with positions, and lacks of the last round
-void take_lacks_of_changes(const Simulation& simulation, const std::vector<AccuracyRound>& rounds,
-                           AccuracyRound& now);
+void take_missing_energy_of_changes(const Simulation& simulation, const std::vector<AccuracyRound>& rounds,
+                                    AccuracyRound& now);
 
 /// error over the length of a goal, or its least value; infinite if both are 0.
 [[nodiscard]] double relative_to(double error, const Goal& goal);

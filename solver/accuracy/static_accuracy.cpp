@@ -55,11 +55,12 @@ AccuracyRound round_of_orders(const Simulation& simulation, const AccuracyReques
     for (const BlockState& state : simulation.states()) round.positions.push_back(state.position);
   round.of_changes = !goals.empty() && earlier.size() >= rounds_with_next_orders;
   if (round.of_changes) {
-    round.lacks = earlier.back().lacks;
-    take_lacks_of_changes(simulation, earlier, round);
+    round.missing_energy = earlier.back().missing_energy;
+    take_missing_energy_of_changes(simulation, earlier, round);
   } else {
-    round.lacks = unknown_lacks(simulation);
-    for (const OrderError& error : order_errors(simulation)) round.lacks[at(error.block)] = error.lacks;
+    round.missing_energy = unknown_energy(simulation);
+    for (const OrderError& error : order_errors(simulation))
+      round.missing_energy[at(error.block)] = error.missing_energy;
   }
   return round;
 }
@@ -109,17 +110,18 @@ class OrderChoice {
     mean_energy_ = sum_of(last_.energies) / std::max(deformable, 1);
     for (std::size_t k = 0; k < goals.size(); ++k)
       goals_met_ = goals_met_ && order_error_of(rounds.orders, k, goals[k]) <= request.accuracy;
-    for (const int block : raisable_) all_estimated_ = all_estimated_ && last_.lacks[at(block)] >= 0.0;
+    for (const int block : raisable_)
+      all_estimated_ = all_estimated_ && last_.missing_energy[at(block)] >= 0.0;
     if (!all_estimated_ && !has_goals_) goals_met_ = energy_is_still();
   }
 
   /// Blocks that get the next order; empty: orders suffice, or cannot be raised.
   [[nodiscard]] std::vector<int> blocks() const {
     double largest = 0.0;
-    for (const int block : raisable_) largest = std::max(largest, last_.lacks[at(block)]);
+    for (const int block : raisable_) largest = std::max(largest, last_.missing_energy[at(block)]);
     std::vector<int> chosen;
     for (const int block : raisable_) {
-      const double lack = last_.lacks[at(block)];
+      const double lack = last_.missing_energy[at(block)];
       const bool rises = has_goals_ || lack < 0.0
                              ? !goals_met_ && (lack < 0.0 || (lack > 0.0 && lack >= least_lack * largest))
                              : lack > request_.accuracy * std::max(last_.energies[at(block)], mean_energy_);
@@ -198,11 +200,11 @@ double error_out_of_reach(const AccuracyRequest& request, const std::vector<Goal
 
 }  // namespace
 
-std::vector<double> unknown_lacks(const Simulation& simulation) {
-  std::vector<double> lacks;
+std::vector<double> unknown_energy(const Simulation& simulation) {
+  std::vector<double> missing_energy;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
-    lacks.push_back(simulation.system().moving()[k] && !simulation.blocks()[k].rigid() ? -1.0 : 0.0);
-  return lacks;
+    missing_energy.push_back(simulation.system().moving()[k] && !simulation.blocks()[k].rigid() ? -1.0 : 0.0);
+  return missing_energy;
 }
 
 bool raise_orders(Simulation& simulation, const AccuracyRequest& request, const std::vector<Goal>& goals,
@@ -233,11 +235,11 @@ bool refine(Simulation& simulation, const AccuracyRequest& request, const std::v
 
 StaticStatus find_equilibrium(Simulation& simulation, double end_time, const AccuracyRequest& request,
                               const GoalValues& goals, AccuracyRounds& rounds,
-                              const std::function<bool()>& goes_on) {
+                              const std::function<bool()>& may_continue) {
   for (;;) {
     StaticStatus status = StaticStatus::balancing;
     while (status == StaticStatus::balancing) {
-      if (!goes_on()) return status;
+      if (!may_continue()) return status;
       status = simulation.static_step(end_time);
     }
     const bool goes = status == StaticStatus::equilibrium

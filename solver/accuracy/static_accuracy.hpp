@@ -43,7 +43,7 @@ struct AccuracyRequest {
 struct AccuracyRound {
   std::vector<std::vector<double>> goals;  ///< values
   std::vector<double> energies;            ///< by block, J: of strain, in a motion with that of motion
-  std::vector<double> lacks;               ///< J by block, as OrderError; negative: not estimated
+  std::vector<double> missing_energy;      ///< J by block, as OrderError; negative: not estimated
   /// By block: order if it is chosen, otherwise 0; empty: unknown
   std::vector<int> orders = {};
   std::vector<Eigen::MatrixX3d> positions = {};  ///< by block, BlockState::position, (p, 3); empty: unknown
@@ -51,7 +51,7 @@ struct AccuracyRound {
 };
 
 /// Lacks before any estimate: unknown of moving blocks that deform, 0 of others.
-[[nodiscard]] std::vector<double> unknown_lacks(const Simulation& simulation);
+[[nodiscard]] std::vector<double> unknown_energy(const Simulation& simulation);
 
 /// All rounds so far.
 struct AccuracyRounds {
@@ -92,11 +92,12 @@ using GoalValues = std::function<std::vector<Goal>(const Simulation&)>;
 
 /// Equilibria, each refine()d, until the accuracy is reached or an analysis finds none. Where an analysis does not
 /// converge, all blocks get the next order.
-/// @param rounds empty. @param goes_on called before each iteration: false ends it
+/// @param rounds empty. @param may_continue called before each iteration: false ends it
 /// @return status of the last analysis, balancing if it was ended
 [[nodiscard]] StaticStatus find_equilibrium(Simulation& simulation, double end_time,
                                             const AccuracyRequest& request, const GoalValues& goals,
-                                            AccuracyRounds& rounds, const std::function<bool()>& goes_on);
+                                            AccuracyRounds& rounds,
+                                            const std::function<bool()>& may_continue);
 
 /// At the end of the last round; infinite without any. @param goals as given to refine()
 [[nodiscard]] AccuracyEstimate accuracy_estimate(const std::vector<Goal>& goals,

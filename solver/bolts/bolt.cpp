@@ -46,7 +46,7 @@ double largest_axial_force(const BoltState& state) {
 double largest_shear_force(const BoltState& state) {
   double largest = 0.0;
   for (std::size_t n = 0; n + 1 < state.dowels.size(); n += 2)
-    largest = std::max(largest, std::hypot(state.dowels[n], state.dowels[n + 1]));
+    largest = std::max(largest, Eigen::Vector2d(state.dowels[n], state.dowels[n + 1]).norm());
   return largest;
 }
 

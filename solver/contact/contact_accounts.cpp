@@ -19,14 +19,14 @@ IslandFunds::IslandFunds(const PairHistories& histories, std::vector<std::vector
   for (std::size_t island = 0; island < islands_.size(); ++island) {
     for (const PairKey& pair : islands_[island]) {
       owned.insert(pair);
-      before_[island].energy += history_of(histories, pair).taken;
+      before_[island].energy += history_of(histories, pair).spent;
     }
     before_[island].pairs = static_cast<double>(islands_[island].size());
   }
   for (const auto& [pair, history] : histories) {
     if (owned.count(pair) > 0 || (shared != nullptr && !shared->owns(pair))) continue;
     others_.push_back(pair);
-    common_before_.energy += history.taken;
+    common_before_.energy += history.spent;
   }
   common_before_.pairs = static_cast<double>(others_.size());
   if (shared != nullptr) sum_over(*shared);
@@ -55,7 +55,7 @@ void IslandFunds::spend_from(PairHistories& histories) const {
   const auto set_sum = [&](const std::vector<PairKey>& pairs, const Sum& before, double sum) {
     if (sum == before.energy) return;
     for (const PairKey& pair : pairs) {
-      double& account = histories[pair].taken;
+      double& account = histories[pair].spent;
       account = before.energy > 0.0 ? account / before.energy * sum : sum / before.pairs;
     }
   };

@@ -272,7 +272,7 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
       if (!hulls[at(block)]) hulls[at(block)].emplace(placed(block));
   }
   counts_.convex_pairs += open.size();
-  std::vector<std::optional<EntranceName>> settled(open.size());
+  std::vector<std::optional<EntranceName>> converged(open.size());
   parallel_for(settings_.threads, open.size(), [&](std::size_t k) {
     const PairKey& blocks = searched[open[k]].blocks;
     PairContacts& contacts = searched[open[k]].contacts;
@@ -283,10 +283,10 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
     history.depth =
         settings_.search.passing_share * settings_.contact_distance + 2.0 * before.depth_to_search();
     history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
-    settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
+    converged[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
   });
   for (std::size_t k = 0; k < open.size(); ++k)
-    if (settled[k]) entrances.emplace(searched[open[k]].blocks, *settled[k]);
+    if (converged[k]) entrances.emplace(searched[open[k]].blocks, *converged[k]);
   std::set<PairKey> kept;
   for (std::size_t n = 0; n < near_.size(); ++n)
     if (known[n] != nullptr) kept.insert(near_[n].blocks);

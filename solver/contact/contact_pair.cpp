@@ -30,7 +30,7 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, ContactP
   cuts_ = std::move(patch.cuts);
   turning_ = std::move(patch.turning);
   cache_ = std::move(patch.cache);
-  kind_.goes_on = start.continues;
+  kind_.continues = start.continues;
   if (start.continues && !law.augmented) continue_springs();
   if (start.touch_within > 0.0) touch_within(start.touch_within);
   if (start.frozen) freeze_at_gap(*start.frozen);
@@ -116,8 +116,8 @@ void ContactPair::touch_within(double depth) {
   rest_at(std::move(rests));
 }
 
-void ContactPair::freeze_at_gap(double taken) {
-  taken_ = taken;
+void ContactPair::freeze_at_gap(double spent) {
+  spent_ = spent;
   std::vector<double> rests;
   for (std::size_t k = 0; k < points_.size(); ++k)
     rests.push_back(laws_[k].tension > 0.0 ? points_[k].gap : std::min(dilation_before(k), points_[k].gap));

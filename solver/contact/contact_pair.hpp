@@ -85,7 +85,7 @@ class ContactPair {
   /// Data of its contacts for the contact cache; null: none.
   [[nodiscard]] const std::shared_ptr<const ContactCache>& cache() const { return cache_; }
   /// True if its springs continue from the last step, false if they were detected again.
-  [[nodiscard]] bool goes_on() const { return kind_.goes_on; }
+  [[nodiscard]] bool continues() const { return kind_.continues; }
 
   /// Laws of the points at the start of the step.
   [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
@@ -129,7 +129,7 @@ class ContactPair {
   /// True if any point of a contact has strength that can fail.
   [[nodiscard]] bool bonded() const;
   /// PatchStart::frozen, J; 0 without it.
-  [[nodiscard]] double taken() const { return taken_; }
+  [[nodiscard]] double spent() const { return spent_; }
   /// Largest depth of points without bond, m, >= 0; 0 for tied blocks.
   [[nodiscard]] double depth_found() const;
   /// The pair without friction and forces, for the separation of blocks: points resist penetration beyond a depth;
@@ -226,7 +226,7 @@ class ContactPair {
     double damping;     ///< share of critical
     bool counts_slip = false;
     bool freezes_failure = false;
-    bool goes_on = false;
+    bool continues = false;
     std::optional<double> restitution = std::nullopt;
     Roughness roughness = {};
   };
@@ -239,7 +239,7 @@ class ContactPair {
   // Start of a patch: PatchStart.
   void continue_springs();
   void touch_within(double depth);
-  void freeze_at_gap(double taken);
+  void freeze_at_gap(double spent);
   void count_slip(const std::vector<Vector3>& moved);
   void freeze_failure();
   // StepActions. @param step s, > 0
@@ -272,7 +272,7 @@ class ContactPair {
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< rest gap of each normal spring, m, <= 0 except for bonds
-  double taken_ = 0.0;
+  double spent_ = 0.0;
   double reduced_mass_;  ///< of both blocks, kg
   Kind kind_;
   Eigen::Matrix3Xd start_;  ///< gap relative to the rest gap and slip at the start of the step

@@ -159,7 +159,7 @@ void SurfaceContinuation::add(const PairKey& blocks, const std::vector<CellOverl
     covers_.add(blocks, overlap, a.surface(), b.surface(), {&overlap, &a, &b});
 }
 
-bool SurfaceContinuation::goes_on(const Cover& cover, const RimPlace& rim) const {
+bool SurfaceContinuation::continues(const Cover& cover, const RimPlace& rim) const {
   const CellOverlap& overlap = *cover.overlap;
   const Eigen::Vector2d place = overlap.frame.project(rim.place);
   if (!is_on(overlap, place, reach_)) return false;
@@ -173,8 +173,8 @@ bool SurfaceContinuation::goes_on(const Cover& cover, const RimPlace& rim) const
   return gap(place) <= rim.near && rise <= rounding;
 }
 
-bool SurfaceContinuation::goes_on(int block, int with_rim, const RimPlace& rim) const {
-  return covers_.any(block, rim.face, with_rim, [&](const Cover& cover) { return goes_on(cover, rim); });
+bool SurfaceContinuation::continues(int block, int with_rim, const RimPlace& rim) const {
+  return covers_.any(block, rim.face, with_rim, [&](const Cover& cover) { return continues(cover, rim); });
 }
 
 }  // namespace ashlar

@@ -111,7 +111,7 @@ class SurfaceContinuation {
            const PlacedSurface& b);
   /// True if a block other than the one with the rim continues the surface behind it.
   /// @param block that lies on the rim. @param with_rim the other one
-  [[nodiscard]] bool goes_on(int block, int with_rim, const RimPlace& rim) const;
+  [[nodiscard]] bool continues(int block, int with_rim, const RimPlace& rim) const;
 
  private:
   struct Cover {
@@ -119,7 +119,7 @@ class SurfaceContinuation {
     const PlacedSurface* a;
     const PlacedSurface* b;
   };
-  [[nodiscard]] bool goes_on(const Cover& cover, const RimPlace& rim) const;
+  [[nodiscard]] bool continues(const Cover& cover, const RimPlace& rim) const;
 
   CoveredFaces<Cover> covers_;
   double reach_;

@@ -215,8 +215,9 @@ class PairAudit {
     const auto depth = finder_.of_segment(*first, *last, resolution_, deepest_.depth, &clearance);
     if (known != nullptr) *known = {*first, *last, clearance};
     if (!depth) return;
-    const Vector3 way = *last - *first;
-    const double within = way.squaredNorm() > 0.0 ? way.dot(depth->place - *first) / way.squaredNorm() : 0.0;
+    const Vector3 offset = *last - *first;
+    const double within =
+        offset.squaredNorm() > 0.0 ? offset.dot(depth->place - *first) / offset.squaredNorm() : 0.0;
     const double along = (*part)[0] + within * ((*part)[1] - (*part)[0]);
     const auto& ends_of_edge = surface_.edges[with_points_.middles.empty() ? piece : piece / 2].ends;
     const Vector3& from = surface_.points[at(ends_of_edge[0])];
@@ -225,14 +226,14 @@ class PairAudit {
   }
 
   void take(const SolidDepth& found, const Vector3& place, const Vector3& reference) {
-    const double depth = found.depth * map_.stretch_across(found.place, found.way_out);
+    const double depth = found.depth * map_.stretch_across(found.place, found.outward);
     if (!(depth > deepest_.depth)) return;
     deepest_.depth = depth;
     deepest_.place = place;
     deepest_.face = found.face;
     // On both surfaces: the material between them is strained too.
-    deepest_.materials = {reference, found.place + found.depth * found.way_out};
-    deepest_.normal = map_.placed_normal(found.place, found.way_out);
+    deepest_.materials = {reference, found.place + found.depth * found.outward};
+    deepest_.normal = map_.placed_normal(found.place, found.outward);
   }
 
   const AuditedBlock& with_points_;

@@ -24,7 +24,7 @@ void share_out(std::vector<Claim>& claims) {
     std::map<double*, double> lacking;  // sum over all claims on a loss
     for (const Claim& claim : claims)
       for (double* loss : claim.losses) lacking[loss] += claim.lacking;
-    std::map<double*, double> taken;
+    std::map<double*, double> removed;
     for (Claim& claim : claims) {
       if (!(claim.lacking > 0.0)) continue;
       double offered = 0.0;
@@ -32,12 +32,12 @@ void share_out(std::vector<Claim>& claims) {
       if (!(offered > 0.0)) continue;
       const bool enough = offered >= claim.lacking;
       const double share = enough ? claim.lacking / offered : 1.0;
-      for (double* loss : claim.losses) taken[loss] += share * *loss * (claim.lacking / lacking[loss]);
+      for (double* loss : claim.losses) removed[loss] += share * *loss * (claim.lacking / lacking[loss]);
       claim.received += share * offered;
       claim.lacking = enough ? 0.0 : claim.lacking - offered;
       satisfied = satisfied || enough;
     }
-    for (const auto& [loss, energy] : taken) *loss = std::max(0.0, *loss - energy);
+    for (const auto& [loss, energy] : removed) *loss = std::max(0.0, *loss - energy);
   }
 }
 

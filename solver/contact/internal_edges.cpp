@@ -84,14 +84,15 @@ bool ends_there(const PlacedSurface& s, int point, const Vector3& direction) {
 
 /// True if all touching features of b are below those of a after the retraction of a, and the blocks end there.
 template <class Contact>
-bool undoes(const Retraction& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
-  const Vector3& direction = way.direction;
+bool undoes(const Retraction& retraction, const PlacedSurface& a, const PlacedSurface& b,
+            const Contact& contact) {
+  const Vector3& direction = retraction.direction;
   const Touching found = touching(a, b, contact);
-  if (largest_cosine(direction, found.normals) > (way.own ? steep_sides : faces_across)) return false;
+  if (largest_cosine(direction, found.normals) > (retraction.own ? steep_sides : faces_across)) return false;
   const Farthest bottom = farthest(a, found.of_a, -direction);
   const Farthest top = farthest(b, found.of_b, direction);
-  return bottom.at + top.at <= way.height &&
-         (way.own || (ends_there(a, bottom.point, -direction) && ends_there(b, top.point, direction)));
+  return bottom.at + top.at <= retraction.height &&
+         (retraction.own || (ends_there(a, bottom.point, -direction) && ends_there(b, top.point, direction)));
 }
 
 /// True if a condition holds for any contact of a pair.
@@ -131,13 +132,14 @@ Retractions::Retractions(const PairHistories& histories, const std::vector<bool>
 void Retractions::add(const PairKey& blocks, const Vector3& normal, double depth) {
   const double height = depth > 0.0 ? 2.0 * depth : depth;
   const auto add_to = [&](int block, int other, const Vector3& direction) {
-    std::vector<Bundle>& bundles = ways_[block];
+    std::vector<Bundle>& bundles = bundles_[block];
     auto bundle = std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& known) {
       return known.direction.dot(direction) >= one_way;
     });
     if (bundle == bundles.end()) bundle = bundles.insert(bundles.end(), Bundle{direction, {}, {}});
     std::vector<OutOf>& known = bundle->out_of[other];
-    if (std::any_of(known.begin(), known.end(), [&](const OutOf& way) { return way.height >= height; }))
+    if (std::any_of(known.begin(), known.end(),
+                    [&](const OutOf& retraction) { return retraction.height >= height; }))
       return;
     known.push_back({direction, height, count_++});
     auto& [first, second] = bundle->highest;
@@ -166,7 +168,7 @@ void Retractions::add_touching(const PairKey& blocks, const PlacedSurface& a, co
 double Retractions::sunk(int block, int but, const Vector3& direction,
                          const BlockCompression& compression_of) const {
   double highest = 0.0;
-  if (const auto known = ways_.find(block); known != ways_.end()) {
+  if (const auto known = bundles_.find(block); known != bundles_.end()) {
     for (const Bundle& bundle : known->second) {
       if (!(std::abs(bundle.direction.dot(direction)) > faces_across)) continue;
       const Highest& high = bundle.highest[bundle.highest[0].other == but ? 1 : 0];
@@ -185,47 +187,48 @@ std::vector<Retraction> Retractions::of_pair(int a, int b, const ContactNormals&
     });
   };
   const auto add = [&](int block, int side, double sign) {
-    const auto known = ways_.find(block);
-    if (known == ways_.end()) return;
+    const auto known = bundles_.find(block);
+    if (known == bundles_.end()) return;
     for (const Bundle& bundle : known->second) {
       if (across_all(bundle.direction)) continue;
-      for (const auto& [other, ways] : bundle.out_of) {
+      for (const auto& [other, retractions] : bundle.out_of) {
         const bool own = other == side;
-        for (const OutOf& way : ways) {
+        for (const OutOf& retraction : retractions) {
           const double supports = own ? 0.0
-                                      : sunk(other, block, way.direction, compression_of) +
-                                            sunk(side, block, way.direction, compression_of);
-          numbered.emplace_back(way.number, Retraction{sign * way.direction,
-                                                       way.height + supports,
-                                                       {std::min(block, other), std::max(block, other)},
-                                                       own});
+                                      : sunk(other, block, retraction.direction, compression_of) +
+                                            sunk(side, block, retraction.direction, compression_of);
+          numbered.emplace_back(retraction.number,
+                                Retraction{sign * retraction.direction,
+                                           retraction.height + supports,
+                                           {std::min(block, other), std::max(block, other)},
+                                           own});
         }
       }
     }
     std::sort(numbered.begin(), numbered.end(),
               [](const auto& x, const auto& y) { return x.first < y.first; });
   };
-  std::vector<Retraction> ways;
+  std::vector<Retraction> retractions;
   for (const auto& [block, side, sign] : {std::tuple{a, b, 1.0}, std::tuple{b, a, -1.0}}) {
     numbered.clear();
     add(block, side, sign);
-    for (const auto& [number, way] : numbered) ways.push_back(way);
+    for (const auto& [number, retraction] : numbered) retractions.push_back(retraction);
   }
-  return ways;
+  return retractions;
 }
 
-bool Retractions::stands(const Retraction& way, const std::vector<FoundContacts>& found,
+bool Retractions::stands(const Retraction& retraction, const std::vector<FoundContacts>& found,
                          const std::function<const PlacedSurface&(int)>& placed,
                          const BlockCompression& compression_of) const {
   const auto pair = std::lower_bound(
-      found.begin(), found.end(), way.out_of,
+      found.begin(), found.end(), retraction.out_of,
       [](const FoundContacts& contacts, const PairKey& blocks) { return contacts.blocks < blocks; });
-  if (pair == found.end() || pair->blocks != way.out_of) return false;
+  if (pair == found.end() || pair->blocks != retraction.out_of) return false;
   const PlacedSurface& a = placed(pair->blocks[0]);
   const PlacedSurface& b = placed(pair->blocks[1]);
   const std::vector<Retraction> others =
       of_pair(pair->blocks[0], pair->blocks[1], normals_of(a, b, pair->contacts), compression_of);
-  const Vector3& direction = way.direction;
+  const Vector3& direction = retraction.direction;
   return any_of(pair->contacts, [&](const auto& contact) {
     return largest_cosine(direction, touching(a, b, contact).normals) > faces_across &&
            std::none_of(others.begin(), others.end(),
@@ -234,23 +237,25 @@ bool Retractions::stands(const Retraction& way, const std::vector<FoundContacts>
 }
 
 void remove_internal_edges(const PlacedSurface& a, const PlacedSurface& b,
-                           const std::vector<Retraction>& ways,
+                           const std::vector<Retraction>& retractions,
                            const std::function<bool(const Retraction&)>& stands, PairContacts& contacts) {
-  for (const Retraction& way : ways) {
-    const auto undone = [&](const auto& contact) { return undoes(way, a, b, contact); };
+  for (const Retraction& retraction : retractions) {
+    const auto undone = [&](const auto& contact) { return undoes(retraction, a, b, contact); };
     // Evaluated before any is removed: `stands` may refer to the same contacts.
-    if (!any_of(contacts, undone) || !stands(way)) continue;
+    if (!any_of(contacts, undone) || !stands(retraction)) continue;
     std::erase_if(contacts.overlaps, undone);
     std::erase_if(contacts.vertices, undone);
     std::erase_if(contacts.edges, undone);
   }
 }
 
-bool at_internal_edge(const PlacedSurface& a, const PlacedSurface& b, const std::vector<Retraction>& ways,
+bool at_internal_edge(const PlacedSurface& a, const PlacedSurface& b,
+                      const std::vector<Retraction>& retractions,
                       const std::function<bool(const Retraction&)>& stands, const Touch& touch) {
-  return std::any_of(ways.begin(), ways.end(), [&](const Retraction& way) {
-    return std::visit([&](const auto& contact) { return undoes(way, a, b, contact); }, touch.contact) &&
-           stands(way);
+  return std::any_of(retractions.begin(), retractions.end(), [&](const Retraction& retraction) {
+    return std::visit([&](const auto& contact) { return undoes(retraction, a, b, contact); },
+                      touch.contact) &&
+           stands(retraction);
   });
 }
 

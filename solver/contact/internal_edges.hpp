@@ -62,7 +62,7 @@ class Retractions {
   /// flanks of a ridge with little penetration, for example, each is beside the retraction from the other.
   /// @param found contacts, ordered by blocks, with or without those at internal edges. @param placed surfaces of
   /// blocks that have contacts
-  [[nodiscard]] bool stands(const Retraction& way, const std::vector<FoundContacts>& found,
+  [[nodiscard]] bool stands(const Retraction& retraction, const std::vector<FoundContacts>& found,
                             const std::function<const PlacedSurface&(int)>& placed,
                             const BlockCompression& compression_of) const;
 
@@ -87,19 +87,19 @@ class Retractions {
   [[nodiscard]] double sunk(int block, int but, const Vector3& direction,
                             const BlockCompression& compression_of) const;
 
-  std::map<int, std::vector<Bundle>> ways_;  ///< by block
+  std::map<int, std::vector<Bundle>> bundles_;  ///< by block
   std::size_t count_ = 0;
 };
 
-/// Removes the contacts of a pair that one of the retractions undoes. @param ways as Retractions::of_pair returns
+/// Removes the contacts of a pair that one of the retractions undoes. @param retractions as Retractions::of_pair returns
 /// @param stands selects the valid ones
 void remove_internal_edges(const PlacedSurface& a, const PlacedSurface& b,
-                           const std::vector<Retraction>& ways,
+                           const std::vector<Retraction>& retractions,
                            const std::function<bool(const Retraction&)>& stands, PairContacts& contacts);
 
 /// True if one of the retractions undoes a touch.
 [[nodiscard]] bool at_internal_edge(const PlacedSurface& a, const PlacedSurface& b,
-                                    const std::vector<Retraction>& ways,
+                                    const std::vector<Retraction>& retractions,
                                     const std::function<bool(const Retraction&)>& stands, const Touch& touch);
 
 }  // namespace ashlar

@@ -16,7 +16,7 @@ void drop_empty(PairHistories& histories) {
   std::erase_if(histories, [](const auto& entry) {
     const PairHistory& pair = entry.second;
     return pair.memory.empty() && !pair.cache && !pair.clearance && !pair.entrance && pair.work == 0.0 &&
-           pair.taken == 0.0 && pair.depth == 0.0 && pair.bonded == 0.0 && pair.overlap == 0.0;
+           pair.spent == 0.0 && pair.depth == 0.0 && pair.bonded == 0.0 && pair.overlap == 0.0;
   });
 }
 
@@ -30,7 +30,7 @@ void validate(const PairHistories& histories, int blocks) {
     const auto is_size = [](double value) { return std::isfinite(value) && value >= 0.0; };
     demand(0 <= key[0] && key[0] < key[1] && key[1] < blocks, "blocks are not in order");
     demand(std::isfinite(pair.work), "work is not finite");
-    demand(is_size(pair.taken), "work of multipliers is negative or not finite");
+    demand(is_size(pair.spent), "work of multipliers is negative or not finite");
     demand(is_size(pair.bonded) && is_size(pair.broken), "an area of bonds is negative or not finite");
     demand(is_size(pair.depth) && is_size(pair.overlap), "depth is negative or not finite");
     demand(is_size(pair.memory.deepest()) && is_size(pair.memory.bulge()),

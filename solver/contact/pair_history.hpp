@@ -29,7 +29,7 @@ struct PairHistory {
   std::optional<Clearance> clearance;    ///< unless the last search found contacts
   std::optional<EntranceName> entrance;  ///< of convex pairs that were near each other at the last search
   double work = 0.0;     ///< of the contact forces on both blocks since the start of the run, J
-  double taken = 0.0;    ///< energy that blocks have spent on multipliers and not got back, J, >= 0
+  double spent = 0.0;    ///< energy that blocks have spent on multipliers and not got back, J, >= 0
   double bonded = 0.0;   ///< m^2, largest area with strength so far
   double broken = 0.0;   ///< m^2, failed part of it since the start of the run
   double depth = 0.0;    ///< true depth at the end of the last step, m, >= 0 (depth_audit.hpp)

@@ -33,10 +33,10 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
     return rows_.mobility(first, count, stop.inertia_a, stop.inertia_b);
   };
   const double of_tie = tied() ? mobility(0, 3 * static_cast<Eigen::Index>(points_.size())) : 0.0;
-  const Eigen::Matrix3Xd way = motion(ya, yb);
+  const Eigen::Matrix3Xd displacement = motion(ya, yb);
   PairResponse result;
   result.points = end.points;
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(way.size());
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(displacement.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     const PointResponse& point = end.points[k];
@@ -62,7 +62,7 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
       if (point.state == ContactState::locked)
         mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness(mobility(3 * column + 1, 2)));
     }
-    mean.force -= mean.tangent * way.col(column);
+    mean.force -= mean.tangent * displacement.col(column);
     forces.segment<3>(3 * column) = mean.force;
     result.means.push_back(mean);
   }

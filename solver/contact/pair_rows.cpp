@@ -170,14 +170,15 @@ void PairRows::follow(std::vector<ContactPoint>& points, const BlockInStep& a, c
   const std::vector<ContactPoint> end =
       moved_to(middle, PlacedBlock(*a.model, a.end), PlacedBlock(*b.model, b.end));
   act_at(middle, a, b, points);
-  const Eigen::Matrix3Xd way = motion(ya, yb);
+  const Eigen::Matrix3Xd displacement = motion(ya, yb);
   bent_.setZero(static_cast<Eigen::Index>(points.size()));
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     if (free_pair_)
-      apart_.col(column) = in_frame(middle[k], middle[k].place_a - middle[k].place_b) - 0.5 * way.col(column);
+      apart_.col(column) =
+          in_frame(middle[k], middle[k].place_a - middle[k].place_b) - 0.5 * displacement.col(column);
     if (points[k].source == NormalSource::as_found) continue;
-    bent_[column] = end[k].gap - points[k].gap - way(0, column);
+    bent_[column] = end[k].gap - points[k].gap - displacement(0, column);
   }
 }
 

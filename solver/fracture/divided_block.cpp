@@ -80,8 +80,8 @@ std::vector<double> shares_of(const DividedSolid& solids, const BlockPlace& wher
 std::optional<Plane> plane_with_room(const Polyhedron& solid, const Plane& plane, double least_size) {
   const auto [low, high] = extent_of(solid, plane);
   if (!(high - low >= 2.0 * least_size)) return std::nullopt;
-  const double way = std::clamp(0.0, low + least_size, high - least_size);
-  return Plane{plane.point + way * plane.normal, plane.normal};
+  const double offset = std::clamp(0.0, low + least_size, high - least_size);
+  return Plane{plane.point + offset * plane.normal, plane.normal};
 }
 
 std::optional<DividedSolid> divided_solid(const Polyhedron& solid, const Plane& plane, double least_size) {

@@ -85,7 +85,7 @@ PairHistory share_of(const PairHistory& whole, std::vector<Entry> entries, doubl
   part.memory = ContactMemory(std::move(entries), {}, memory.deepest(),
                               {share * memory.held().normal, share * memory.held().shear}, memory.bulge());
   part.work = share * whole.work;
-  part.taken = share * whole.taken;
+  part.spent = share * whole.spent;
   part.bonded = share * whole.bonded;
   part.broken = share * whole.broken;
   part.depth = whole.depth;

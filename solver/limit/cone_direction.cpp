@@ -239,30 +239,30 @@ double ConeIteration::length(double share) const {
   return std::min(1.0, share * longest);
 }
 
-void ConeIteration::advance(double way) {
+void ConeIteration::advance(double step) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const ConeStrength& s = strength(k);
     PointIterate& i = points_[k];
     const PointStep& d = steps_[k];
-    i.p += way * d.dp;
+    i.p += step * d.dp;
     if (s.shear()) {
-      i.x += way * d.dx;
-      i.z += way * d.dz;
+      i.x += step * d.dx;
+      i.z += step * d.dz;
     }
     if (s.cut_off()) {
-      i.xc += way * d.dxc;
-      i.zc += way * d.dzc;
+      i.xc += step * d.dxc;
+      i.zc += step * d.dzc;
     }
     if (s.crushes()) {
-      i.xm += way * d.dxm;
-      i.zm += way * d.dzm;
+      i.xm += step * d.dxm;
+      i.zm += step * d.dzm;
     }
   }
-  for (std::size_t b = 0; b < velocity_.size(); ++b) velocity_[b] += way * step_v_[b];
+  for (std::size_t b = 0; b < velocity_.size(); ++b) velocity_[b] += step * step_v_[b];
   if (grows_) {
-    factor_ += way * step_factor_;
-    slack_ += way * step_slack_;
-    slack_dual_ += way * step_dual_;
+    factor_ += step * step_factor_;
+    slack_ += step * step_slack_;
+    slack_dual_ += step * step_dual_;
   }
 }
 

@@ -245,23 +245,23 @@ bool ConeIteration::done(double looser) const {
          equations_ <= looser * equations_allowed();
 }
 
-double ConeIteration::gap_after(double way) const {
+double ConeIteration::gap_after(double step) const {
   double gap = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const ConeStrength& s = strength(k);
     const PointIterate& i = points_[k];
     const PointStep& d = steps_[k];
-    if (way == 0.0) {
+    if (step == 0.0) {
       if (s.shear()) gap += i.x.dot(i.z);
       if (s.cut_off()) gap += i.xc * i.zc;
       if (s.crushes()) gap += i.xm * i.zm;
     } else {
-      if (s.shear()) gap += (i.x + way * d.dx).dot(i.z + way * d.dz);
-      if (s.cut_off()) gap += (i.xc + way * d.dxc) * (i.zc + way * d.dzc);
-      if (s.crushes()) gap += (i.xm + way * d.dxm) * (i.zm + way * d.dzm);
+      if (s.shear()) gap += (i.x + step * d.dx).dot(i.z + step * d.dz);
+      if (s.cut_off()) gap += (i.xc + step * d.dxc) * (i.zc + step * d.dzc);
+      if (s.crushes()) gap += (i.xm + step * d.dxm) * (i.zm + step * d.dzm);
     }
   }
-  if (grows_) gap += (slack_ + way * step_slack_) * (slack_dual_ + way * step_dual_);
+  if (grows_) gap += (slack_ + step * step_slack_) * (slack_dual_ + step * step_dual_);
   return gap;
 }
 

@@ -117,10 +117,10 @@ class ConeIteration {
 
   [[nodiscard]] double length(double share) const;
 
-  /// Complementarity after a step of length `way` along the direction.
-  [[nodiscard]] double gap_after(double way) const;
+  /// Complementarity after a step of length `step` along the direction.
+  [[nodiscard]] double gap_after(double step) const;
 
-  void advance(double way);
+  void advance(double step);
 
   void finish(ConeAnswer& answer) const;
 

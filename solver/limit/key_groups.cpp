@@ -42,11 +42,11 @@ std::vector<KeyGroup> key_groups(const RigidModel& model, const std::vector<bool
                                  const KeyGroupSearch& search) {
   std::vector<KeyGroup> groups;
   std::vector<bool> free(model.bodies.size(), true);
-  while (static_cast<int>(groups.size()) < search.most && search.goes_on()) {
+  while (static_cast<int>(groups.size()) < search.most && search.may_continue()) {
     HeldModel part = with_held_bodies(model, free, reduced);
     if (part.model.bodies.empty() || part.model.bodies.front().blocks.empty()) break;
     LimitAnalysis analysis(std::move(part.model), std::move(part.reduced), search.threads);
-    const LimitAnswer answer = analysis.strength_factor(search.factors, search.goes_on);
+    const LimitAnswer answer = analysis.strength_factor(search.factors, search.may_continue);
     // Where nothing moves below the associated limit, its motion is both.
     const LimitBracket& limit = answer.released.motion ? answer.released : answer.associated;
     const std::optional<LimitTrial>& trial = limit.motion;

@@ -27,7 +27,7 @@ struct KeyGroupSearch {
   double wanted = 1.0;  ///< > 0, factor for which the needed force is told
   int most = 50;        ///< groups
   int threads = 1;
-  std::function<bool()> goes_on = [] {
+  std::function<bool()> may_continue = [] {
     return true;
   };  ///< called before each analysis; false ends the search
 };

@@ -71,12 +71,13 @@ class LimitAnalysis {
   /// none
   using OtherMotion = std::function<std::optional<LimitTrial>(const LimitBracket& associated)>;
 
-  /// The factor by which strengths of the chosen joints may be divided. @param goes_on called before each trial;
+  /// The factor by which strengths of the chosen joints may be divided. @param may_continue called before each trial;
   /// false ends the search. @param other called once, before released motions are searched; empty: none
-  [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+  [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search,
+                                            const std::function<bool()>& may_continue,
                                             const OtherMotion& other = {});
   /// The factor by which the chosen loads may be multiplied, with the others unchanged.
-  [[nodiscard]] LimitAnswer load_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+  [[nodiscard]] LimitAnswer load_factor(const LimitSearch& search, const std::function<bool()>& may_continue,
                                         const OtherMotion& other = {});
 
   /// The motion of a trial that moves; for an associated one the motion without dilation, if one is found.

@@ -18,8 +18,8 @@ constexpr int most_returns = 30;
 class LimitSearching {
  public:
   LimitSearching(LimitAnalysis& analysis, Sought sought, const LimitSearch& search,
-                 const std::function<bool()>& goes_on, const LimitAnalysis::OtherMotion& other)
-      : analysis_(analysis), sought_(sought), search_(search), goes_on_(goes_on), other_(other) {}
+                 const std::function<bool()>& may_continue, const LimitAnalysis::OtherMotion& other)
+      : analysis_(analysis), sought_(sought), search_(search), may_continue_(may_continue), other_(other) {}
 
   LimitAnswer run() {
     const double guess = sought_ == Sought::load ? analysis_.most_that_stands(search_.upper) : 0.0;
@@ -48,7 +48,7 @@ class LimitSearching {
   }
 
   std::optional<LimitTrial> attempt(double factor, bool released) {
-    if (!goes_on_()) {
+    if (!may_continue_()) {
       answer_.interrupted = true;
       return std::nullopt;
     }
@@ -119,7 +119,7 @@ class LimitSearching {
   LimitAnalysis& analysis_;
   Sought sought_;
   const LimitSearch& search_;
-  const std::function<bool()>& goes_on_;
+  const std::function<bool()>& may_continue_;
   const LimitAnalysis::OtherMotion& other_;
   LimitAnswer answer_;
   std::map<double, double> followed_;  ///< by factor, that of the motion at the start of its trial; 0: none
@@ -127,14 +127,15 @@ class LimitSearching {
 
 }  // namespace
 
-LimitAnswer LimitAnalysis::strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+LimitAnswer LimitAnalysis::strength_factor(const LimitSearch& search,
+                                           const std::function<bool()>& may_continue,
                                            const OtherMotion& other) {
-  return LimitSearching(*this, Sought::strength, search, goes_on, other).run();
+  return LimitSearching(*this, Sought::strength, search, may_continue, other).run();
 }
 
-LimitAnswer LimitAnalysis::load_factor(const LimitSearch& search, const std::function<bool()>& goes_on,
+LimitAnswer LimitAnalysis::load_factor(const LimitSearch& search, const std::function<bool()>& may_continue,
                                        const OtherMotion& other) {
-  return LimitSearching(*this, Sought::load, search, goes_on, other).run();
+  return LimitSearching(*this, Sought::load, search, may_continue, other).run();
 }
 
 }  // namespace ashlar

@@ -134,16 +134,17 @@ class Bars {
     if (strength_.shear == 0.0 || after != before + 1 || !shape().crossings()[at(before)].dowelled) return;
     RigidPoint point = crossing(group, {groups_[group + 1].body, groups_[group].body}, BarPart::dowel);
     const Vector3 along = direction(group), across = along.unitOrthogonal();
-    const std::array<Vector3, 2> ways = {across, along.cross(across)};
+    const std::array<Vector3, 2> directions = {across, along.cross(across)};
     point.spring = {law().shear_stiffness, law().shear_stiffness, 0.0};
     if (std::isinf(strength_.shear)) {
-      for (const Vector3& way : ways) {
-        point.frame.row(0) = way.transpose();
+      for (const Vector3& direction : directions) {
+        point.frame.row(0) = direction.transpose();
         points.push_back(point);
       }
       return;
     }
-    for (const Eigen::Index k : {0, 1}) point.frame.row(k + 1) = ways[at(static_cast<int>(k))].transpose();
+    for (const Eigen::Index k : {0, 1})
+      point.frame.row(k + 1) = directions[at(static_cast<int>(k))].transpose();
     point.bar->shear = strength_.shear;
     points.push_back(std::move(point));
   }

@@ -59,7 +59,7 @@ class Growth {
   /// True if slip comes to rest, whatever its direction.
   [[nodiscard]] bool ends() const { return decays_ >= fast_decays || total_ < std::log(no_slip); }
   [[nodiscard]] double limit() const { return limit_; }
-  [[nodiscard]] bool settled(double margin) const {
+  [[nodiscard]] bool converged(double margin) const {
     if (count_ < 3) return false;
     const double allowed = std::max(margin, clearly * std::abs(growth_));
     return turned_ < same || (turned_ < alike && std::abs(limit_ - growth_) < allowed);
@@ -100,7 +100,7 @@ ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilati
     found.force = std::move(answer.force);
     Eigen::VectorXd next = shifts_of(program, dilation, found.velocity);
     growth.add(shift, next);
-    if (growth.ends() || growth.settled(margin)) {
+    if (growth.ends() || growth.converged(margin)) {
       const bool grows = !growth.ends() && growth.limit() > -margin;
       found.outcome = grows ? LimitOutcome::moves : LimitOutcome::stands;
       return found;

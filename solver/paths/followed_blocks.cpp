@@ -90,34 +90,35 @@ double FollowedBlocks::radius_about(const RigidBody& body) const {
   return radius;
 }
 
-double FollowedBlocks::way_of(const RigidBody& body, const BodyVelocity& way) const {
-  const RigidMotionOf motion = motion_of(body, way);
+double FollowedBlocks::travel_of(const RigidBody& body, const BodyVelocity& travel) const {
+  const RigidMotionOf motion = motion_of(body, travel);
   return motion.translation.norm() + radius_about(body) * motion.rotation.norm();
 }
 
-double FollowedBlocks::largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const {
+double FollowedBlocks::largest_travel(const RigidModel& model,
+                                      const std::vector<BodyVelocity>& travel) const {
   double largest = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    largest = std::max(largest, way_of(model.bodies[b], way[b]));
+    largest = std::max(largest, travel_of(model.bodies[b], travel[b]));
   return largest;
 }
 
 std::vector<int> FollowedBlocks::moving_blocks(const RigidModel& model,
                                                const std::vector<BodyVelocity>& velocity) const {
-  const double largest = largest_way(model, velocity);
+  const double largest = largest_travel(model, velocity);
   std::vector<int> moving;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (way_of(model.bodies[b], velocity[b]) > mechanism_share * largest)
+    if (travel_of(model.bodies[b], velocity[b]) > mechanism_share * largest)
       moving.insert(moving.end(), model.bodies[b].blocks.begin(), model.bodies[b].blocks.end());
   std::sort(moving.begin(), moving.end());
   return moving;
 }
 
-void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocity>& way,
+void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocity>& travel,
                           FollowedPlace& placement) const {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const RigidBody& body = model.bodies[b];
-    const RigidMotionOf motion = motion_of(body, way[b]);
+    const RigidMotionOf motion = motion_of(body, travel[b]);
     const Eigen::Matrix3d turn = turn_of(motion.rotation);
     for (const int k : body.blocks) {
       Eigen::MatrixX3d& position = placement.states[at(k)].position;
@@ -128,29 +129,30 @@ void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocit
   }
 }
 
-void FollowedBlocks::place_support(int support, const SupportWay& way, double q,
+void FollowedBlocks::place_support(int support, const SupportWay& travel, double q,
                                    FollowedPlace& placement) const {
   placement.states[at(support)].position =
-      way.placed(system_.blocks()[at(support)], scene_.states[at(support)].position, q);
+      travel.placed(system_.blocks()[at(support)], scene_.states[at(support)].position, q);
   placement.moved = q;
 }
 
-RigidModel midway(const RigidModel& model, const ConeProgram& program, const std::vector<BodyVelocity>& way) {
+RigidModel midway(const RigidModel& model, const ConeProgram& program,
+                  const std::vector<BodyVelocity>& travel) {
   RigidModel mid = model;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    mid.bodies[b].middle += 0.5 * motion_of(model.bodies[b], way[b]).translation;
+    mid.bodies[b].middle += 0.5 * motion_of(model.bodies[b], travel[b]).translation;
   for (const ConePair& pair : program.pairs()) {
     const auto [a, b] = pair.bodies;
     Vector3 rotation = Vector3::Zero();  // mean of both sides
     for (const int body : pair.bodies)
       if (body >= 0 && at(body) < model.bodies.size())
-        rotation += 0.5 * motion_of(model.bodies[at(body)], way[at(body)]).rotation;
+        rotation += 0.5 * motion_of(model.bodies[at(body)], travel[at(body)]).rotation;
     const Eigen::Matrix3d turn = turn_of(0.5 * rotation);
     for (std::size_t k = pair.begin; k < pair.end; ++k) {
       const ConePoint& point = program.points()[k];
       Eigen::Vector3d both = Eigen::Vector3d::Zero();
-      if (a >= 0) both += point.first * way[at(a)];
-      if (b >= 0) both += point.second * way[at(b)];
+      if (a >= 0) both += point.first * travel[at(a)];
+      if (b >= 0) both += point.second * travel[at(b)];
       RigidPoint& moved = mid.points[k];
       moved.friction_place = turn * (moved.friction_place - moved.place);
       moved.place += 0.25 * model.points[k].frame.transpose() * both;
@@ -169,9 +171,9 @@ std::vector<double> gaps_over(const RigidModel& model, double length) {
   return gaps;
 }
 
-std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way) {
-  for (BodyVelocity& v : way) v *= factor;
-  return way;
+std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> travel) {
+  for (BodyVelocity& v : travel) v *= factor;
+  return travel;
 }
 
 bool cannot_balance(ConeProgram& program, const std::vector<BodyVelocity>& load) {

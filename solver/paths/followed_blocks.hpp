@@ -43,19 +43,19 @@ class FollowedBlocks {
   [[nodiscard]] RigidModel model_of(const FollowedPlace& placement,
                                     const std::vector<bool>& multiplied = {}) const;
 
-  /// Largest displacement of any place of a body, m. @param way by body, in coordinates of the model
-  [[nodiscard]] double largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const;
+  /// Largest displacement of any place of a body, m. @param travel by body, in coordinates of the model
+  [[nodiscard]] double largest_travel(const RigidModel& model, const std::vector<BodyVelocity>& travel) const;
   /// Blocks that move by more than 1 % of the fastest one, ascending. @param velocity by body, in coordinates of the model
   [[nodiscard]] std::vector<int> moving_blocks(const RigidModel& model,
                                                const std::vector<BodyVelocity>& velocity) const;
   /// Moves bodies by exact rotations.
-  void move(const RigidModel& model, const std::vector<BodyVelocity>& way, FollowedPlace& placement) const;
-  void place_support(int support, const SupportWay& way, double q, FollowedPlace& placement) const;
+  void move(const RigidModel& model, const std::vector<BodyVelocity>& travel, FollowedPlace& placement) const;
+  void place_support(int support, const SupportWay& travel, double q, FollowedPlace& placement) const;
 
  private:
   [[nodiscard]] double radius_about(const RigidBody& body) const;
   /// Largest displacement of any place of a body, m.
-  [[nodiscard]] double way_of(const RigidBody& body, const BodyVelocity& way) const;
+  [[nodiscard]] double travel_of(const RigidBody& body, const BodyVelocity& travel) const;
 
   const PlacedScene& scene_;
   BlockSystem system_;          ///< with friction only, and points up to the reach
@@ -64,15 +64,15 @@ class FollowedBlocks {
 
 /// The model midway through a motion, with updated centroids, places and frames of its points and unchanged loads and
 /// gaps.
-/// @param program of the model, with or without the support. @param way m, by body of the programme
+/// @param program of the model, with or without the support. @param travel m, by body of the programme
 [[nodiscard]] RigidModel midway(const RigidModel& model, const ConeProgram& program,
-                                const std::vector<BodyVelocity>& way);
+                                const std::vector<BodyVelocity>& travel);
 
 /// Gaps relative to a length, by point of a model, limited to largest_shift. Forces across larger gaps are detected when
 /// gaps are closed.
 [[nodiscard]] std::vector<double> gaps_over(const RigidModel& model, double length);
 
-[[nodiscard]] std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way);
+[[nodiscard]] std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> travel);
 
 /// True if forces of all points in reach cannot balance the loads: the squared motion by Gauss's principle exceeds
 /// the gap between its primal and dual values.

@@ -72,7 +72,7 @@ class CollapsePath {
       if (answer.status != ConeStatus::solved) return std::nullopt;
       std::vector<BodyVelocity> motion = answer.velocity;
       for (BodyVelocity& v : motion) v *= scale;
-      const double farthest = blocks_.largest_way(model, motion);
+      const double farthest = blocks_.largest_travel(model, motion);
       const double longest = longest_scale * length_;
       const bool last = n + 1 == most_lengths;
       if (farthest > length_ || (farthest < short_motion * length_ && scale < longest && !last)) {
@@ -94,9 +94,9 @@ class CollapsePath {
     for (std::size_t k = 0; k < placement_.states.size(); ++k) {
       const BlockModel& block = scene_.system.blocks()[k];
       if (block.fixed() || !scene_.system.present(static_cast<int>(k))) continue;
-      const Eigen::MatrixX3d way = placement_.states[k].position - scene_.states[k].position;
+      const Eigen::MatrixX3d displacement = placement_.states[k].position - scene_.states[k].position;
       path_.displacements[k] =
-          Vector3(way.transpose() * block.basis().values(block.basis().centroid())).norm() /
+          Vector3(displacement.transpose() * block.basis().values(block.basis().centroid())).norm() /
           block_size(block);
     }
   }

@@ -153,7 +153,7 @@ PathTrial LoadPath::to(const PathState& start, const LimitFactors& factors, doub
     trial.states = std::move(next.states);
     if (note_displacement(trial.end) > 1.0) {
       trial.outcome = LimitOutcome::moves;
-      trial.way = std::move(next.moved);
+      trial.travel = std::move(next.moved);
       return trial;
     }
     if (unbalanced <= unbalanced_at_rest * largest) {
@@ -204,9 +204,9 @@ LimitTrial LoadPath::motion_of(const PathTrial& trial, const LimitFactors& facto
     return shown;
   }
   shown.slow = true;
-  shown.acceleration = trial.way;
+  shown.acceleration = trial.travel;
   shown.force = trial.end.force;
-  const double motion_size = largest_motion(trial.way, loads, program_.loaded_bodies());
+  const double motion_size = largest_motion(trial.travel, loads, program_.loaded_bodies());
   if (motion_size > 0.0)
     for (BodyVelocity& velocity : shown.acceleration) velocity *= slow_motion / motion_size;
   return shown;

@@ -40,8 +40,8 @@ struct PathState {
 struct PathTrial {
   LimitOutcome outcome = LimitOutcome::unknown;
   PathState end;
-  std::vector<BodyVelocity> way;    ///< of the last step, for a trial that moves
-  std::vector<SpringState> states;  ///< by point
+  std::vector<BodyVelocity> travel;  ///< of the last step, for a trial that moves
+  std::vector<SpringState> states;   ///< by point
   int iterations = 0;
 };
 

@@ -33,8 +33,8 @@ constexpr double below_bracket = 0.9;
 class PathSearch {
  public:
   PathSearch(LoadPath& path, Sought sought, const LimitSearch& search, const LimitBracket& associated,
-             const std::function<bool()>& goes_on)
-      : path_(path), sought_(sought), search_(search), associated_(associated), goes_on_(goes_on) {}
+             const std::function<bool()>& may_continue)
+      : path_(path), sought_(sought), search_(search), associated_(associated), may_continue_(may_continue) {}
 
   PathAnswer run() {
     if (!begin()) return std::move(answer_);
@@ -92,7 +92,7 @@ class PathSearch {
 
   /// @return false if the search ends
   bool attempt(double factor) {
-    if (!goes_on_()) {
+    if (!may_continue_()) {
       answer_.interrupted = true;
       return false;
     }
@@ -144,7 +144,8 @@ class PathSearch {
     PathState state = rest_.rbegin()->second.end;
     double stands = path_.largest_pressure(state), moves = 0.0;
     if (!(stands > 0.0)) return;
-    for (int n = 0; n < most_strengths && !(moves > 0.0 && stands <= strength_accuracy * moves) && goes_on_();
+    for (int n = 0;
+         n < most_strengths && !(moves > 0.0 && stands <= strength_accuracy * moves) && may_continue_();
          ++n) {
       const double next = moves > 0.0 ? std::sqrt(stands * moves) : 0.5 * stands;
       PathTrial trial = path_.to(state, factors(*answer_.lower), next);
@@ -175,7 +176,7 @@ class PathSearch {
       first = after->second;
     }
     const double accuracy = std::max(onset_accuracy, search_.tolerance);
-    while (after != rest_.end() && high > low * (1.0 + accuracy) && goes_on_()) {
+    while (after != rest_.end() && high > low * (1.0 + accuracy) && may_continue_()) {
       const double middle = low > 0.0 ? std::sqrt(low * high)
                                       : std::max(0.5 * high, std::min(search_.lower, below_bracket * high));
       PathTrial trial = path_.to(before.end, factors(middle));
@@ -197,7 +198,7 @@ class PathSearch {
   Sought sought_;
   const LimitSearch& search_;
   const LimitBracket& associated_;
-  const std::function<bool()>& goes_on_;
+  const std::function<bool()>& may_continue_;
   PathAnswer answer_;
   std::optional<PathTrial> moves_;    ///< at `upper`
   std::map<double, PathTrial> rest_;  ///< by factor, states at rest in the order of the path; 0: its start
@@ -206,8 +207,8 @@ class PathSearch {
 }  // namespace
 
 PathAnswer search_path(LoadPath& path, Sought sought, const LimitSearch& search,
-                       const LimitBracket& associated, const std::function<bool()>& goes_on) {
-  return PathSearch(path, sought, search, associated, goes_on).run();
+                       const LimitBracket& associated, const std::function<bool()>& may_continue) {
+  return PathSearch(path, sought, search, associated, may_continue).run();
 }
 
 }  // namespace ashlar

@@ -36,9 +36,10 @@ struct PathAnswer {
   std::vector<LimitTrial> trials;     ///< in order, without motions and forces
 };
 
-/// @param associated bracket of the limit above which nothing stands. @param goes_on called before each trial; false ends
+/// @param associated bracket of the limit above which nothing stands. @param may_continue called before each trial; false ends
 /// the search
 [[nodiscard]] PathAnswer search_path(LoadPath& path, Sought sought, const LimitSearch& search,
-                                     const LimitBracket& associated, const std::function<bool()>& goes_on);
+                                     const LimitBracket& associated,
+                                     const std::function<bool()>& may_continue);
 
 }  // namespace ashlar

@@ -16,7 +16,7 @@ namespace {
 constexpr int most_gap_closings = 30;
 /// Programmes by which c is adapted to a mechanism, and the ratio of way and length that needs none.
 constexpr int most_adaptations = 4;
-constexpr double alike_ways = 1.25;
+constexpr double alike_travels = 1.25;
 /// Push while gaps are closed, of `closed` and of the gap.
 constexpr double push_of_closed = 0.1, push_of_gap = 1e-2;
 /// Ratio of steps that are tried from the blocks as placed: larger ones may miss the length of a short gap.
@@ -37,7 +37,7 @@ double sum_of_norms(const std::vector<BodyVelocity>& loads) {
 
 /// Displacement of a body's centre by a constant twist. @param translation m, of the centre at the start
 /// @param rotation rad
-Vector3 way_along_screw(const Vector3& translation, const Vector3& rotation) {
+Vector3 travel_along_screw(const Vector3& translation, const Vector3& rotation) {
   const double angle = rotation.norm();
   const double half = 0.5 * angle;
   const double first = angle < small_screw ? 0.5 : 2.0 * std::pow(std::sin(half) / angle, 2);
@@ -50,7 +50,7 @@ Vector3 way_along_screw(const Vector3& translation, const Vector3& rotation) {
 /// to third order of the rotation. @param first m, motion by which the middle was reached; @param middle m, motion there
 std::vector<BodyVelocity> along_screws(const RigidModel& model, const std::vector<BodyVelocity>& first,
                                        const std::vector<BodyVelocity>& middle) {
-  std::vector<BodyVelocity> way;
+  std::vector<BodyVelocity> travel;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const RigidBody& body = model.bodies[b];
     const RigidMotionOf motion = motion_of(body, middle[b]);
@@ -58,14 +58,14 @@ std::vector<BodyVelocity> along_screws(const RigidModel& model, const std::vecto
     const Vector3 start =
         motion.translation - motion.rotation.cross(0.5 * motion_of(body, first[b]).translation);
     BodyVelocity screw;
-    screw << way_along_screw(start, motion.rotation), motion.rotation;
-    way.emplace_back(body.motion.fullPivLu().solve(screw));
+    screw << travel_along_screw(start, motion.rotation), motion.rotation;
+    travel.emplace_back(body.motion.fullPivLu().solve(screw));
   }
-  return way;
+  return travel;
 }
 
 /// Largest opening of points under pressure in a motion, m. @param way m
-double opening_of_push(const PushedPlace& from, const std::vector<BodyVelocity>& way,
+double opening_of_push(const PushedPlace& from, const std::vector<BodyVelocity>& travel,
                        const std::vector<Eigen::Vector3d>& force) {
   double largest = 0.0, opened = 0.0;
   for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
@@ -73,7 +73,7 @@ double opening_of_push(const PushedPlace& from, const std::vector<BodyVelocity>&
   for (std::size_t n = 0; n < pairs.size(); ++n)
     for (std::size_t k = pairs[n].begin; k < pairs[n].end; ++k)
       if (force[k][0] > point_bears * largest)
-        opened = std::max(opened, from.program->relative(n, k, way)[0]);
+        opened = std::max(opened, from.program->relative(n, k, travel)[0]);
   return opened;
 }
 
@@ -132,9 +132,9 @@ std::optional<ConeAnswer> PushedBlocks::pushed_by(PushedPlace& from, double leng
   for (int n = 0;; ++n) {
     std::optional<ConeAnswer> answer = pushed(*from.program, from.model, from.model, length);
     if (!answer) return std::nullopt;
-    const double way = blocks_.largest_way(from.model, answer->velocity);
-    if (n == most_adaptations || (way < alike_ways && alike_ways * way > 1.0)) return answer;
-    rate_ /= way;
+    const double travel = blocks_.largest_travel(from.model, answer->velocity);
+    if (n == most_adaptations || (travel < alike_travels && alike_travels * travel > 1.0)) return answer;
+    rate_ /= travel;
   }
 }
 
@@ -153,13 +153,13 @@ std::optional<PushedPlace> PushedBlocks::start() {
   // A gap may be shorter than a step.
   for (double length = lengths_.longest_step; length >= lengths_.closed; length *= shorter_first_step) {
     rate_ = pushed;
-    if (pushed_by(placed, length)) return settled(std::move(placed.placement), lengths_.reach);
+    if (pushed_by(placed, length)) return converged(std::move(placed.placement), lengths_.reach);
   }
   return std::nullopt;
 }
 
 std::optional<PushedPlace> PushedBlocks::advanced(PushedPlace& from, double length) {
-  last_way_ = 0.0;
+  last_travel_ = 0.0;
   failed_.reset();
   const std::optional<ConeAnswer> ahead = pushed_by(from, length);
   if (!ahead) return std::nullopt;
@@ -169,21 +169,21 @@ std::optional<PushedPlace> PushedBlocks::advanced(PushedPlace& from, double leng
   const std::optional<ConeAnswer> at_middle = pushed(program, middle, from.model, length);
   // If there is none, the first directions are used, and remaining gaps are closed later.
   const std::vector<BodyVelocity> none(first.size(), BodyVelocity::Zero());
-  const std::vector<BodyVelocity> way =
+  const std::vector<BodyVelocity> travel =
       at_middle ? along_screws(from.model, first, times(length, at_middle->velocity))
                 : along_screws(from.model, none, first);
   const double opened = std::max(0.0, opening_of_push(from, first, ahead->force));
-  last_way_ = blocks_.largest_way(from.model, way);
-  if (!(last_way_ <= lengths_.farthest)) {
+  last_travel_ = blocks_.largest_travel(from.model, travel);
+  if (!(last_travel_ <= lengths_.farthest)) {
     failure_ = PushFailure::far;
     return std::nullopt;
   }
   FollowedPlace next = from.placement;
-  blocks_.move(from.model, way, next);
-  return settled(std::move(next), lengths_.farthest - last_way_, opened);
+  blocks_.move(from.model, travel, next);
+  return converged(std::move(next), lengths_.farthest - last_travel_, opened);
 }
 
-std::optional<PushedPlace> PushedBlocks::settled(FollowedPlace placement, double way, double opened) {
+std::optional<PushedPlace> PushedBlocks::converged(FollowedPlace placement, double travel, double opened) {
   double gap = opened;
   for (int n = 0; n < most_gap_closings; ++n) {
     PushedPlace place;
@@ -197,7 +197,7 @@ std::optional<PushedPlace> PushedBlocks::settled(FollowedPlace placement, double
       return std::nullopt;
     }
     const std::vector<BodyVelocity> motion = times(push, answer->velocity);
-    const double farthest = blocks_.largest_way(place.model, motion);
+    const double farthest = blocks_.largest_travel(place.model, motion);
     // The multiplier belongs to the placement: a motion this small is not made.
     if (farthest <= lengths_.closed) {
       place.multiplier = answer->factor / rate_;
@@ -205,9 +205,9 @@ std::optional<PushedPlace> PushedBlocks::settled(FollowedPlace placement, double
       place.force = std::move(answer->force);
       return place;
     }
-    way -= farthest;
-    last_way_ += farthest;
-    if (!(way >= 0.0)) {
+    travel -= farthest;
+    last_travel_ += farthest;
+    if (!(travel >= 0.0)) {
       failure_ = PushFailure::far;
       return std::nullopt;
     }

@@ -39,9 +39,10 @@ class PushedBlocks {
   /// The place after a step. @param from is unchanged but for its programme's workspace
   /// @param length m, about the displacement of the block that moves farthest. Empty: see failure()
   [[nodiscard]] std::optional<PushedPlace> advanced(PushedPlace& from, double length);
-  /// A placement in equilibrium. @param way m, allowed displacement of blocks. @param opened m, largest gap that a step has
+  /// A placement in equilibrium. @param travel m, allowed displacement of blocks. @param opened m, largest gap that a step has
   /// opened at a point under pressure. Empty: see failure()
-  [[nodiscard]] std::optional<PushedPlace> settled(FollowedPlace placement, double way, double opened = 0.0);
+  [[nodiscard]] std::optional<PushedPlace> equilibrium_from(FollowedPlace placement, double travel,
+                                                            double opened = 0.0);
 
   /// True if no multiplier up to a few times the given size balances the blocks where the last step has led, which has
   /// failed as undetermined.
@@ -49,7 +50,7 @@ class PushedBlocks {
 
   [[nodiscard]] PushFailure failure() const { return failure_; }
   /// m, displacement of blocks in the last step, and by closing its gaps.
-  [[nodiscard]] double last_way() const { return last_way_; }
+  [[nodiscard]] double last_travel() const { return last_travel_; }
   [[nodiscard]] int programmes() const { return programmes_; }
   [[nodiscard]] const FollowedBlocks& blocks() const { return blocks_; }
 
@@ -69,7 +70,7 @@ class PushedBlocks {
   FollowedBlocks blocks_;
   double rate_ = 1.0;  ///< c: F1 . u per way of the block that moves farthest, in units of the model
   double most_ = unbounded_over_loads;  ///< multiplier that counts as unbounded
-  double last_way_ = 0.0;
+  double last_travel_ = 0.0;
   std::optional<PushedPlace>
       failed_;  ///< where the last step has led, if its programme has not reached its tolerances
   PushFailure failure_ = PushFailure::undetermined;

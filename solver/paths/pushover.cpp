@@ -158,7 +158,7 @@ class PushoverPath {
   void take_steps() {
     double length = lengths_.longest_step;
     while (true) {
-      if (!search_.goes_on()) {
+      if (!search_.may_continue()) {
         path_.end = PushoverEnd::interrupted;
         return;
       }
@@ -188,16 +188,16 @@ class PushoverPath {
   bool rests(double displacement, double length) {
     if (displacement > farthest_ + control_advances * length) {
       farthest_ = displacement;
-      way_at_rest_ = 0.0;
+      travel_at_rest_ = 0.0;
     } else {
-      way_at_rest_ += length;
+      travel_at_rest_ += length;
     }
-    return way_at_rest_ > search_.limit;
+    return travel_at_rest_ > search_.limit;
   }
 
   /// @param most factor
   [[nodiscard]] double next_length(double length, double most) const {
-    return lengths_.next_step(length, pushed_.last_way(), most);
+    return lengths_.next_step(length, pushed_.last_travel(), most);
   }
 
   [[nodiscard]] PushoverEnd end_of_failure() {
@@ -284,7 +284,7 @@ class PushoverPath {
       const double before = path_.places[k].displacement, after = path_.places[k + 1].displacement;
       if (std::abs(displacement - before) <= tolerance || std::abs(displacement - after) <= tolerance) return;
       if (!(before < displacement && displacement < after)) continue;
-      here_ = pushed_.settled(visited_[k].placement, lengths_.farthest);
+      here_ = pushed_.equilibrium_from(visited_[k].placement, lengths_.farthest);
       if (!here_) return;
       // Steps are lengths of a block's way, which depends a little on earlier ones.
       double length = visited_[k].length;
@@ -308,7 +308,8 @@ class PushoverPath {
     const std::size_t shown = std::min(count, most_states);
     for (std::size_t n = 0; n < shown; ++n) {
       const std::size_t k = shown > 1 ? n * (count - 1) / (shown - 1) : 0;
-      const std::optional<PushedPlace> place = pushed_.settled(visited_[k].placement, lengths_.farthest);
+      const std::optional<PushedPlace> place =
+          pushed_.equilibrium_from(visited_[k].placement, lengths_.farthest);
       if (!place) continue;
       PushoverState state;
       state.place = static_cast<int>(k);
@@ -327,7 +328,7 @@ class PushoverPath {
   std::optional<PushedPlace> here_;
   std::vector<Visited> visited_;  ///< by place
   double farthest_ = 0.0;         ///< m, largest displacement of the control
-  double way_at_rest_ = 0.0;      ///< m, way of the fastest blocks since then
+  double travel_at_rest_ = 0.0;   ///< m, path of the fastest blocks since then
   Pushover path_;
 };
 

@@ -43,7 +43,9 @@ struct PushoverSearch {
   std::optional<PushoverControl> control;
   /// Ascending, 0 to 1: shares of the displacement at which the multiplier is zero, which get places of their own
   std::vector<double> shares;
-  std::function<bool()> goes_on = [] { return true; };  ///< called before each step; false ends the search
+  std::function<bool()> may_continue = [] {
+    return true;
+  };  ///< called before each step; false ends the search
 };
 
 /// Where a pushover ends.
@@ -56,7 +58,7 @@ enum class PushoverEnd {
   not_balanced,     ///< the blocks do not stand without the push
   control_at_rest,  ///< the control does not move along the direction, or no more while others do
   not_determined,   ///< programmes did not reach their tolerances: nothing is known beyond the last place
-  interrupted,      ///< by goes_on
+  interrupted,      ///< by may_continue
 };
 
 /// An equilibrium on the way.

@@ -31,7 +31,7 @@ std::optional<PushoverActivation> pushover_activation(const PlacedScene& scene, 
   const LimitBracket associated{limit, limit * (1.0 + activation_tolerance), true, std::nullopt};
   const PathAnswer answer =
       search_path(path, Sought::load, {least_share_of_limit * limit, limit, activation_tolerance}, associated,
-                  search.goes_on);
+                  search.may_continue);
   if (answer.interrupted) return std::nullopt;
   const double rest = answer.lower.value_or(0.0);
   if (rest >= limit * (1.0 - 2.0 * activation_tolerance)) return PushoverActivation{limit, true};

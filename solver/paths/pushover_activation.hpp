@@ -16,7 +16,7 @@ struct PushoverActivation {
 /// Relative accuracy of the multiplier on the path.
 inline constexpr double activation_tolerance = 5e-3;
 
-/// @param limit multiplier of the first place, > 0. @param search its goes_on ends it. @return empty: it was ended
+/// @param limit multiplier of the first place, > 0. @param search its may_continue ends it. @return empty: it was ended
 [[nodiscard]] std::optional<PushoverActivation> pushover_activation(const PlacedScene& scene,
                                                                     const PushoverSearch& search,
                                                                     double limit);

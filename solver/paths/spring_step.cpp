@@ -186,8 +186,8 @@ SpringSolution SpringStep::solve(const std::vector<Vector3d>& start, const std::
     const double size = left.norm();
     now.converged = size <= balanced * scale;
     if (now.converged || !std::isfinite(size) || !factorize(tangents, inertia)) break;
-    const Eigen::VectorXd way = matrix_->factor.solve(left);
-    if (!way.allFinite()) break;
+    const Eigen::VectorXd change = matrix_->factor.solve(left);
+    if (!change.allFinite()) break;
     sizes.push_back(size);
     const auto first = sizes.size() > remembered ? sizes.end() - remembered : sizes.begin();
     const double allowed = *std::max_element(first, sizes.end());
@@ -196,7 +196,7 @@ SpringSolution SpringStep::solve(const std::vector<Vector3d>& start, const std::
     for (;; share *= 0.5) {
       for (std::size_t b = 0; b < next.moved.size(); ++b)
         next.moved[b].head(program_.freedom(b)) =
-            now.moved[b].head(program_.freedom(b)) + share * way.segment(offsets_[b], program_.freedom(b));
+            now.moved[b].head(program_.freedom(b)) + share * change.segment(offsets_[b], program_.freedom(b));
       next_left = residual(start, load, inertia, next, next_tangents);
       if (next_left.norm() < (1.0 - descent * share) * allowed || share < shortest) break;
     }

@@ -77,16 +77,17 @@ SupportMovement support_movement(const PlacedScene& scene, int support, const Mo
     throw std::invalid_argument("bolts and props do not follow movements of supports");
   if (block_held_in_part(model)) throw std::invalid_argument("supports hold a block in part");
   if (!is_loaded(model)) throw std::invalid_argument("no load acts");
-  const SupportWay way(model, support, scene.system.settings().gravity_at(scene.end_time), search.direction);
+  const SupportWay movement_law(model, support, scene.system.settings().gravity_at(scene.end_time),
+                                search.direction);
   const PathLengths lengths(smallest_size(scene.system, model), scene.system.settings().contact_distance);
   const FollowedBlocks blocks(scene, lengths.reach);
-  SupportMovement movement{support, way.direction(), {}, {}};
-  movement.away = !search.direction && way.direction();
+  SupportMovement movement{support, movement_law.direction(), {}, {}};
+  movement.away = !search.direction && movement_law.direction();
   movement.left_out_strength = std::any_of(
       model.points.begin(), model.points.end(),
       [](const RigidPoint& point) { return point.law.cohesion > 0.0 || point.law.tensile_strength > 0.0; });
   const auto least_towards = [&](double sign) {
-    return least_path({blocks, way, support, sign, lengths, scene.threads, std::nullopt}, search);
+    return least_path({blocks, movement_law, support, sign, lengths, scene.threads, std::nullopt}, search);
   };
   movement.out = least_towards(1.0);
   movement.in = least_towards(-1.0);

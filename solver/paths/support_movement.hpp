@@ -50,7 +50,9 @@ struct MovementSearch {
   std::optional<Vector3> direction;
   double limit = 0.0;      ///< m, > 0: largest movement searched
   double tolerance = 0.0;  ///< m, > 0: width of the bracket, if rounding errors of the programmes allow it
-  std::function<bool()> goes_on = [] { return true; };  ///< called before each step; false ends the search
+  std::function<bool()> may_continue = [] {
+    return true;
+  };  ///< called before each step; false ends the search
 };
 
 /// Where a movement ends.
@@ -60,7 +62,7 @@ enum class MovementEnd {
   reaches_limit,   ///< not limited within the search: increase `limit` to search farther
   not_balanced,    ///< no equilibrium at the start
   not_determined,  ///< programmes did not reach their tolerances: nothing is known beyond `lower`
-  interrupted,     ///< by goes_on
+  interrupted,     ///< by may_continue
 };
 
 /// An equilibrium on the path.

@@ -35,7 +35,7 @@ class Path {
  public:
   explicit Path(const SupportStart& start)
       : blocks_(start.blocks),
-        way_(start.way),
+        travel_(start.travel),
         support_(start.support),
         sign_(start.sign),
         lengths_(start.lengths),
@@ -88,7 +88,7 @@ class Path {
     double step = lengths_.longest_step;
     int unknown = 0;
     while (search.limit > moved()) {
-      if (!search.goes_on()) {
+      if (!search.may_continue()) {
         path_.end = MovementEnd::interrupted;
         return;
       }
@@ -97,7 +97,7 @@ class Path {
       if (end == StepEnd::equilibrium) {
         path_.upper.reset();
         path_.end = MovementEnd::reaches_limit;
-        step = std::min(lengths_.longest_step, lengths_.next_step(step, last_way_, 2.0));
+        step = std::min(lengths_.longest_step, lengths_.next_step(step, last_travel_, 2.0));
         continue;
       }
       note_end(end, step, search.tolerance);
@@ -108,7 +108,8 @@ class Path {
         if (!path_.upper) path_.end = MovementEnd::not_determined;
         return;
       }
-      step = narrow ? 0.5 * step : std::max(lengths_.next_step(step, last_way_, 0.5), 0.5 * search.tolerance);
+      step =
+          narrow ? 0.5 * step : std::max(lengths_.next_step(step, last_travel_, 0.5), 0.5 * search.tolerance);
     }
   }
 
@@ -136,7 +137,9 @@ class Path {
 
   /// @param q of the support, m
   [[nodiscard]] ConeProgram program_at(const RigidModel& model, double q) const {
-    const SupportVelocity velocity = [this, q](const RigidPoint& point) { return way_.velocity(point, q); };
+    const SupportVelocity velocity = [this, q](const RigidPoint& point) {
+      return travel_.velocity(point, q);
+    };
     return program_with_support(model, support_, velocity, threads_);
   }
 
@@ -170,24 +173,24 @@ class Path {
 
   /// The motion of a step by the directions at its middle: hinges stay in place to third order of the rotation, while
   /// they would drift along their joints otherwise. @param way m, by the directions at its start
-  std::vector<BodyVelocity> half_way(double step, const std::vector<BodyVelocity>& way) {
-    const RigidModel mid = midway(*model_, *program_, way);
+  std::vector<BodyVelocity> half_travel(double step, const std::vector<BodyVelocity>& travel) {
+    const RigidModel mid = midway(*model_, *program_, travel);
     // If there is none, the first directions are used, and remaining gaps are closed later.
     const auto velocity = velocity_of_step(mid, 0.5 * sign_ * step, step);
-    return velocity ? times(step, *velocity) : way;
+    return velocity ? times(step, *velocity) : travel;
   }
 
   StepEnd advance(double step) {
     const std::optional<Prediction> ahead = predict(step);
-    last_way_ = 0.0;
+    last_travel_ = 0.0;
     if (!ahead) return failed_;
-    const std::vector<BodyVelocity> way = half_way(step, times(step, ahead->velocity));
-    const double farthest = last_way_ = blocks_.largest_way(*model_, way);
+    const std::vector<BodyVelocity> travel = half_travel(step, times(step, ahead->velocity));
+    const double farthest = last_travel_ = blocks_.largest_travel(*model_, travel);
     if (!(farthest <= lengths_.farthest)) return StepEnd::far;
     FollowedPlace next = placement_;
-    note_slip(*model_, *program_, way, force_, next);
-    blocks_.move(*model_, way, next);
-    blocks_.place_support(support_, way_, placement_.moved + sign_ * step, next);
+    note_slip(*model_, *program_, travel, force_, next);
+    blocks_.move(*model_, travel, next);
+    blocks_.place_support(support_, travel_, placement_.moved + sign_ * step, next);
     const StepEnd end = close(next, lengths_.farthest - farthest);
     if (end != StepEnd::equilibrium) return end;
     path_.places.push_back({moved(), ahead->thrust});
@@ -196,7 +199,7 @@ class Path {
   }
 
   /// Repeats (close) until nothing moves. @param way m, allowed displacement of blocks
-  StepEnd close(FollowedPlace& placement, double way) {
+  StepEnd close(FollowedPlace& placement, double travel) {
     for (int n = 0; n < most_closings; ++n) {
       const RigidModel model = blocks_.model_of(placement);
       ConeProgram program = program_of(model, threads_);
@@ -211,9 +214,9 @@ class Path {
       if (!is_balanced(answer))
         return cannot_balance(program, model.steady) ? StepEnd::unbalanced : StepEnd::undetermined;
       const std::vector<BodyVelocity> motion = times(scale, answer.velocity);
-      const double farthest = blocks_.largest_way(model, motion);
-      way -= farthest;
-      if (!(way >= 0.0)) return StepEnd::far;
+      const double farthest = blocks_.largest_travel(model, motion);
+      travel -= farthest;
+      if (!(travel >= 0.0)) return StepEnd::far;
       note_slip(model, program, motion, answer.force, placement);
       blocks_.move(model, motion, placement);
       if (farthest <= lengths_.closed) return StepEnd::equilibrium;
@@ -223,7 +226,7 @@ class Path {
 
   /// Adds the slip in a motion of joints that transmit force. @param way m
   static void note_slip(const RigidModel& model, const ConeProgram& program,
-                        const std::vector<BodyVelocity>& way, const std::vector<Eigen::Vector3d>& force,
+                        const std::vector<BodyVelocity>& travel, const std::vector<Eigen::Vector3d>& force,
                         FollowedPlace& placement) {
     double largest = 0.0;
     for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
@@ -232,7 +235,7 @@ class Path {
       for (std::size_t k = program.pairs()[n].begin; k < program.pairs()[n].end; ++k) {
         if (!(force[k][0] > point_bears * largest)) continue;
         double& most = slid[key_of(model.points[k].blocks)];
-        most = std::max(most, program.relative(n, k, way).tail<2>().norm());
+        most = std::max(most, program.relative(n, k, travel).tail<2>().norm());
       }
     }
     for (const auto& [blocks, slip] : slid) placement.slip[blocks] += slip;
@@ -270,7 +273,7 @@ class Path {
   }
 
   const FollowedBlocks& blocks_;
-  const SupportWay& way_;
+  const SupportWay& travel_;
   int support_;
   double sign_;
   PathLengths lengths_;
@@ -281,7 +284,7 @@ class Path {
   std::optional<ConeProgram> program_;  ///< of it, with the support
   std::vector<Eigen::Vector3d> force_;  ///< of the last prediction, by point
   std::vector<BodyVelocity> velocity_;  ///< of the last prediction
-  double last_way_ = 0.0;               ///< m, displacement of blocks by it
+  double last_travel_ = 0.0;            ///< m, displacement of blocks by it
   StepEnd failed_ = StepEnd::undetermined;
   SupportPath path_;
 };

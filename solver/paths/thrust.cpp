@@ -65,9 +65,10 @@ class ThrustProgram {
   }
 
   static ConeProgram made(const RigidModel& model, int support, const Vector3& down, int threads) {
-    const SupportWay way(model, support, down, std::nullopt);
+    const SupportWay movement_law(model, support, down, std::nullopt);
     return program_with_support(
-        model, support, [&way](const RigidPoint& point) { return way.velocity(point, 0.0); }, threads);
+        model, support,
+        [&movement_law](const RigidPoint& point) { return movement_law.velocity(point, 0.0); }, threads);
   }
 
   const RigidModel& model_;

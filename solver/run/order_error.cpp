@@ -35,8 +35,8 @@ int wanted_order(const BlockModel& block) {
   return std::min(block.order() + further_orders, largest_order(block));
 }
 
-double relative_of(double lacks, double energy) {
-  return lacks > 0.0 ? std::sqrt(lacks / (energy + lacks)) : 0.0;
+double relative_of(double missing_energy, double energy) {
+  return missing_energy > 0.0 ? std::sqrt(missing_energy / (energy + missing_energy)) : 0.0;
 }
 
 /// Empty if the shape or the material of the block excludes the order, or if it is that of the block.
@@ -160,7 +160,7 @@ OrderError error_of(const Simulation& simulation, const Candidate& candidate, co
   Eigen::MatrixXd stiffness = high.tangent(position, elastic, true);
   stiffness.diagonal().array() += stiffness_of_rigid_motion * stiffness.diagonal().maxCoeff();
   const double squared = residual.dot(stiffness.ldlt().solve(residual));
-  if (squared > 0.0) error.lacks = 0.5 * squared;
+  if (squared > 0.0) error.missing_energy = 0.5 * squared;
   return error;
 }
 
@@ -203,7 +203,7 @@ std::vector<int> chosen_within(const Simulation& simulation, const std::vector<C
 }  // namespace
 
 double OrderError::relative() const {
-  return relative_of(lacks, energy);
+  return relative_of(missing_energy, energy);
 }
 
 std::optional<BlockModel> with_further_orders(const BlockModel& block) {
@@ -278,7 +278,7 @@ std::vector<OrderError> order_errors(const Simulation& simulation) {
 double relative_error(const std::vector<OrderError>& errors) {
   double missing = 0.0, energy = 0.0;
   for (const OrderError& error : errors) {
-    missing += error.lacks;
+    missing += error.missing_energy;
     energy += error.energy;
   }
   return relative_of(missing, energy);

@@ -29,8 +29,8 @@ namespace ashlar {
 
 struct OrderError {
   int block = -1;
-  double energy = 0.0;  ///< strain energy, J, >= 0
-  double lacks = 0.0;   ///< strain energy that its order lacks, J, >= 0; 0 within rounding error
+  double energy = 0.0;          ///< strain energy, J, >= 0
+  double missing_energy = 0.0;  ///< strain energy that its order lacks, J, >= 0; 0 within rounding error
 
   /// Error over the solution, in the norm of the energy, 0 to 1.
   [[nodiscard]] double relative() const;

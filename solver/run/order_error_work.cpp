@@ -87,12 +87,12 @@ std::vector<std::vector<int>> equal_blocks(const std::vector<BlockModel>& blocks
 
 bool EstimateBudget::take(const BlockModel& block, int order) {
   const BlockParts* parts = shared_parts(block);
-  const std::size_t before = parts != nullptr ? taken_[parts] : 0;
+  const std::size_t before = parts != nullptr ? counted_[parts] : 0;
   double work = work_of_solution(block, order);
   if (before % largest_equal_group == 0) work += work_of_model(block, order);
   if (!(work <= left_)) return false;
   left_ -= work;
-  if (parts != nullptr) ++taken_[parts];
+  if (parts != nullptr) ++counted_[parts];
   return true;
 }
 

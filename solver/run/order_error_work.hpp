@@ -52,7 +52,7 @@ class EstimateBudget {
 
  private:
   double left_;
-  std::map<const BlockParts*, std::size_t> taken_;  ///< number of blocks by their shared data
+  std::map<const BlockParts*, std::size_t> counted_;  ///< number of blocks by their shared data
 };
 
 }  // namespace ashlar

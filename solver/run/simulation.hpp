@@ -85,9 +85,11 @@ class Simulation {
 
   /// Moves the blocks to their equilibrium under gravity and the loads at time 0, with contacts, by a static
   /// analysis, and then sets their initial velocities (static_start.hpp).
-  /// @param goes_on called before each iteration: false ends the analysis; the same on all ranks
+  /// @param may_continue called before each iteration: false ends the analysis; the same on all ranks
   /// @return status of the analysis, balancing if it was ended; unless it is equilibrium all blocks are as placed
-  [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& goes_on = [] { return true; });
+  [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& may_continue = [] {
+    return true;
+  });
 
   /// Continues from the end of a simulation of the same blocks (stage_start.hpp).
   /// @param was_absent in it, by block

@@ -71,13 +71,13 @@ void Simulation::add_bolts(std::vector<Bolt> bolts) {
 
 std::vector<int> Simulation::settle_supported_blocks() {
   refuse_late("settle_supported_blocks");
-  std::vector<int> settled;
+  std::vector<int> balanced;
   for (int k = 0; k < system_.count(); ++k) {
     const BlockModel& block = system_.blocks()[at(k)];
     if (block.fixed() || !system_.present(k) || !block.supported() || system_.is_tied(k)) continue;
     auto position = block.equilibrium(system_.settings().gravity_at(0.0), 0.0);
     if (!position) continue;
-    settled.push_back(k);
+    balanced.push_back(k);
     BlockState& state = state_.states[at(k)];
     if (block.incremental() == nullptr) {
       state.position = std::move(*position);
@@ -85,22 +85,22 @@ std::vector<int> Simulation::settle_supported_blocks() {
     }
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < system_.settings().settling_steps; ++step) {
-      const double way = (*position - state.position).norm();
+      const double travel = (*position - state.position).norm();
       start_carried_step(system_, state_, caches_, k, block.carried_on(*position));
       // Steps that no longer shrink are rounding errors.
-      if (!(way < last)) break;
-      last = way;
+      if (!(travel < last)) break;
+      last = travel;
       position = block.equilibrium(system_.settings().gravity_at(0.0), 0.0);
     }
   }
   state_.ledger.start(system_, state_.states);
-  return settled;
+  return balanced;
 }
 
-StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
+StaticStatus Simulation::start_from_statics(const std::function<bool()>& may_continue) {
   refuse_late("start_from_statics");
   told_.reset();
-  return ashlar::start_from_statics(context(), goes_on);
+  return ashlar::start_from_statics(context(), may_continue);
 }
 
 void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {

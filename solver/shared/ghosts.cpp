@@ -195,7 +195,7 @@ void leave_sums_to_owners(const BlockSystem& system, RunState& state, const std:
   const auto goes = [&gone](int block) { return std::binary_search(gone.begin(), gone.end(), block); };
   for (auto& [blocks, pair] : state.pairs) {
     if ((!goes(blocks[0]) && !goes(blocks[1])) || system.owns_pair(blocks[0], blocks[1])) continue;
-    pair.work = pair.taken = pair.bonded = pair.broken = 0.0;
+    pair.work = pair.spent = pair.bonded = pair.broken = 0.0;
   }
 }
 
@@ -312,8 +312,8 @@ double farthest_path(const SharedBlocks& shared, const BlockSystem& system, cons
 }
 
 void find_ghosts_within(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
-                        double way) {
-  if (way > 0.0) shared.margin = margin_for(*shared.share, way);
+                        double travel) {
+  if (travel > 0.0) shared.margin = margin_for(*shared.share, travel);
   find_ghosts(shared, system, state, caches);
 }
 

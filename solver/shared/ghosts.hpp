@@ -82,9 +82,9 @@ void find_ghosts_for(SharedBlocks& shared, BlockSystem& system, RunState& state,
                                    const ContactFinder& finder,
                                    const std::function<Eigen::MatrixX3d(int block)>& motion);
 
-/// Finds ghosts again, with a margin for a path of blocks. Collective. @param way m; 0: with the present margin
+/// Finds ghosts again, with a margin for a path of blocks. Collective. @param travel m; 0: with the present margin
 void find_ghosts_within(SharedBlocks& shared, BlockSystem& system, RunState& state, StepCaches& caches,
-                        double way);
+                        double travel);
 
 /// Ghosts at some time of a run, to be restored with a snapshot of one rank.
 struct GhostsThen {

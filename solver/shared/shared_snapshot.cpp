@@ -30,7 +30,7 @@ void take_value(const std::vector<Value>& from, int place, std::vector<Value>& t
 }
 
 void take_block(const SimulationSnapshot& from, int place, SimulationSnapshot& to, const BlockOf& block) {
-  const auto take = [&](const auto& values, auto& taken) { take_value(values, place, taken, block); };
+  const auto take = [&](const auto& values, auto& target) { take_value(values, place, target, block); };
   take(from.run.states, to.run.states);
   take(from.run.accelerations, to.run.accelerations);
   take(from.run.spin_debts, to.run.spin_debts);
@@ -38,15 +38,15 @@ void take_block(const SimulationSnapshot& from, int place, SimulationSnapshot& t
   take(from.finder.tracks, to.finder.tracks);
   take(from.finder.divisions, to.finder.divisions);
   const StaticState& statics = from.run.statics;
-  StaticState& taken = to.run.statics;
-  take(statics.level_start, taken.level_start);
-  take(statics.progress.positions, taken.progress.positions);
-  take(statics.progress.forces, taken.progress.forces);
-  take(statics.progress.displacements, taken.progress.displacements);
-  take(statics.progress.residuals, taken.progress.residuals);
-  take(statics.onset.unbalanced, taken.onset.unbalanced);
-  take(statics.onset.is_compliant, taken.onset.is_compliant);
-  take(statics.onset.starts, taken.onset.starts);
+  StaticState& target = to.run.statics;
+  take(statics.level_start, target.level_start);
+  take(statics.progress.positions, target.progress.positions);
+  take(statics.progress.forces, target.progress.forces);
+  take(statics.progress.displacements, target.progress.displacements);
+  take(statics.progress.residuals, target.progress.residuals);
+  take(statics.onset.unbalanced, target.onset.unbalanced);
+  take(statics.onset.is_compliant, target.onset.is_compliant);
+  take(statics.onset.starts, target.onset.starts);
 }
 
 /// Fixed blocks of the run, by block. Collective.

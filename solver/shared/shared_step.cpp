@@ -76,14 +76,14 @@ void SharedStep::tell_contacts(const BlockSystem& system, RunState& state) const
   update_ghost_contacts(system, state);
 }
 
-double SharedStep::way_beyond(const BlockSystem& system, const ContactFinder& finder,
-                              const std::function<Eigen::MatrixX3d(int)>& motion) const {
+double SharedStep::travel_beyond(const BlockSystem& system, const ContactFinder& finder,
+                                 const std::function<Eigen::MatrixX3d(int)>& motion) const {
   const double most = max_of_ranks(share().ranks(), farthest_path(shared_, system, finder, motion));
   return most > shared_.margin ? most : 0.0;
 }
 
-void SharedStep::find_neighbours(const RunContext& run, double way) {
-  find_ghosts_within(shared_, run.system, run.state, run.caches, way);
+void SharedStep::find_neighbours(const RunContext& run, double travel) {
+  find_ghosts_within(shared_, run.system, run.state, run.caches, travel);
 }
 
 void SharedStep::tell_models(BlockSystem& system, RunState& state, StepCaches& caches) const {

@@ -45,9 +45,9 @@ class SharedStep final : public StepExchange {
                        const std::function<void(ByteReader& reader, int block)>& read) const override;
   void tell_contacts(const BlockSystem& system, RunState& state) const override;
 
-  [[nodiscard]] double way_beyond(const BlockSystem& system, const ContactFinder& finder,
-                                  const std::function<Eigen::MatrixX3d(int block)>& motion) const override;
-  void find_neighbours(const RunContext& run, double way) override;
+  [[nodiscard]] double travel_beyond(const BlockSystem& system, const ContactFinder& finder,
+                                     const std::function<Eigen::MatrixX3d(int block)>& motion) const override;
+  void find_neighbours(const RunContext& run, double travel) override;
   void tell_models(BlockSystem& system, RunState& state, StepCaches& caches) const override;
   [[nodiscard]] std::any neighbours() const override { return ghosts_now(shared_); }
   void restore_neighbours(const RunContext& run, const std::any& neighbours) override;

@@ -4,7 +4,7 @@ namespace ashlar {
 
 std::string to_string(RejectionReason reason) {
   switch (reason) {
-    case RejectionReason::open_close_not_settled:
+    case RejectionReason::open_close_not_converged:
       return "open-close iteration did not converge";
     case RejectionReason::not_positive_definite:
       return "system not positive definite";

@@ -21,14 +21,14 @@ namespace ashlar {
 
 /// Reason for cutting a step.
 enum class RejectionReason {
-  open_close_not_settled,  ///< reduce time_step or the stiffness of the joints
-  not_positive_definite,   ///< a joint or material far too stiff for the step
-  passing,                 ///< blocks would have passed through each other: cut to the first touch
-  no_shape,                ///< an incremental block would have been inverted: reduce time_step
-  not_finite,              ///< a state outside the range of double precision: check loads, stiffness and
-                           ///< time_step
-  inside_out,              ///< a block would have been inverted: stiffer material or less load
-  too_deep,                ///< blocks deeper in each other than allowed: see settings.depth.allowed_depth
+  open_close_not_converged,  ///< reduce time_step or the stiffness of the joints
+  not_positive_definite,     ///< a joint or material far too stiff for the step
+  passing,                   ///< blocks would have passed through each other: cut to the first touch
+  no_shape,                  ///< an incremental block would have been inverted: reduce time_step
+  not_finite,                ///< a state outside the range of double precision: check loads, stiffness and
+                             ///< time_step
+  inside_out,                ///< a block would have been inverted: stiffer material or less load
+  too_deep,                  ///< blocks deeper in each other than allowed: see settings.depth.allowed_depth
 };
 [[nodiscard]] std::string to_string(RejectionReason reason);
 
@@ -41,8 +41,8 @@ struct Rejection {
 
 /// Fault of a state at the end of a step.
 struct StateFault {
-  RejectionReason reason;  ///< not_finite, inside_out, too_deep or open_close_not_settled
-  /// Both indices are the block of a single one; too_deep: the first is in the second; open_close_not_settled: blocks
+  RejectionReason reason;  ///< not_finite, inside_out, too_deep or open_close_not_converged
+  /// Both indices are the block of a single one; too_deep: the first is in the second; open_close_not_converged: blocks
   /// of the pair whose contact points have changed state most often
   BlockPair blocks;
   double depth = 0.0;               ///< m, of too_deep

@@ -75,13 +75,13 @@ double decimal_sum(double start, std::int64_t count, double step) {
   const double rounded = start + static_cast<double>(count) * step;
   const std::optional<Decimal> from = shortest_decimal(start), of = shortest_decimal(step);
   if (!from || !of) return rounded;
-  const std::optional<std::int64_t> way = product(of->digits, count);
-  if (!way) return rounded;
-  int unit = *way == 0 ? from->exponent : of->exponent;
+  const std::optional<std::int64_t> change = product(of->digits, count);
+  if (!change) return rounded;
+  int unit = *change == 0 ? from->exponent : of->exponent;
   if (from->digits != 0) unit = std::min(unit, from->exponent);
   if (std::abs(unit) > largest_power) return rounded;
   const std::optional<std::int64_t> first = in_units(from->digits, from->exponent, unit);
-  const std::optional<std::int64_t> second = in_units(*way, of->exponent, unit);
+  const std::optional<std::int64_t> second = in_units(*change, of->exponent, unit);
   if (!first || !second || std::abs(*first + *second) > largest_exact) return rounded;
   const auto sum = static_cast<double>(*first + *second);
   return unit < 0 ? sum / power_of_ten(-unit) : sum * power_of_ten(unit);

@@ -109,10 +109,11 @@ class StepExchange {
   /// @{
   /// Path of a block of any process, m, if blocks that its process does not know may be there; 0: all that blocks may
   /// meet are known. @param motion by block: change of its position, (p, 3); empty: none since the last step
-  [[nodiscard]] virtual double way_beyond(const BlockSystem& system, const ContactFinder& finder,
-                                          const std::function<Eigen::MatrixX3d(int block)>& motion) const = 0;
-  /// Finds neighbours again, for paths of blocks up to a length. @param way m; 0: as before
-  virtual void find_neighbours(const RunContext& run, double way) = 0;
+  [[nodiscard]] virtual double travel_beyond(
+      const BlockSystem& system, const ContactFinder& finder,
+      const std::function<Eigen::MatrixX3d(int block)>& motion) const = 0;
+  /// Finds neighbours again, for paths of blocks up to a length. @param travel m; 0: as before
+  virtual void find_neighbours(const RunContext& run, double travel) = 0;
   /// Tells neighbours the models of blocks that a run has changed.
   virtual void tell_models(BlockSystem& system, RunState& state, StepCaches& caches) const = 0;
   /// Neighbours as they are, to be restored with a snapshot of this process.

@@ -62,9 +62,9 @@ class MotionExtrapolation {
   }
 
   /// As StepExchange::way_beyond. Collective.
-  [[nodiscard]] double way_beyond(const ContactFinder& finder) const {
+  [[nodiscard]] double travel_beyond(const ContactFinder& finder) const {
     const double share = path_factor();
-    return system_.exchange().way_beyond(system_, finder, [&](int block) {
+    return system_.exchange().travel_beyond(system_, finder, [&](int block) {
       return Eigen::MatrixX3d((goes(block) ? share : 1.0) * problem_.bodies[at(block)].motion());
     });
   }
@@ -160,16 +160,16 @@ class MotionExtrapolation {
 
   /// True if two blocks would stop each other.
   [[nodiscard]] bool meet(const ContactPair& pair, double share) const {
-    double way = std::numeric_limits<double>::infinity();
+    double travel = std::numeric_limits<double>::infinity();
     for (const int block : {pair.a(), pair.b()})
       if (goes(block))
-        way = std::min(way, displacements_[at(block)] * block_size(system_.blocks()[at(block)]));
+        travel = std::min(travel, displacements_[at(block)] * block_size(system_.blocks()[at(block)]));
     const std::vector<double> gaps =
         pair.gaps(problem_.bodies[at(pair.a())].change, problem_.bodies[at(pair.b())].change);
     const Eigen::Matrix3Xd moved = pair.motion(change(pair.a()), change(pair.b()));
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       const double nearer = -share * moved(0, static_cast<Eigen::Index>(k));
-      if (nearer - std::max(0.0, gaps[k]) > meeting_share * share * way) return true;
+      if (nearer - std::max(0.0, gaps[k]) > meeting_share * share * travel) return true;
     }
     return false;
   }
@@ -192,7 +192,7 @@ FollowedMotion follow_motion(const BlockSystem& system, RunState& state, StepCon
   do {
     path.exclude_stopped();
     if (path.any()) {
-      if (const double way = path.way_beyond(contacts.finder()); way > 0.0) return {{}, {}, way};
+      if (const double travel = path.travel_beyond(contacts.finder()); travel > 0.0) return {{}, {}, travel};
     }
   } while (path.any() && path.exclude_passing(contacts));
   // The contact finder keeps the motion that it has checked last.

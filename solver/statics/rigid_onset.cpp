@@ -15,7 +15,7 @@ namespace ashlar {
 
 namespace {
 
-constexpr double way = 1e-5;           // motion of the fastest block, in its sizes
+constexpr double least_travel = 1e-5;  // motion of the fastest block, in its sizes
 constexpr double strain_share = 1e-4;  // of the way
 constexpr double depth_share = 1e-4;   // of the way
 /// Relative to the compliant motion, or to the other blocks in motion: blocks with less motion are at rest except for
@@ -27,7 +27,7 @@ constexpr double opened_by = 4.0;  // times the mean displacement of blocks: lar
 double stiffening(const BodyStep& body) {
   const double stress =
       body.largest_force / std::sqrt(body.model->basis().volume()) * block_size(*body.model);
-  return stress / (strain_share * way * body.model->material().young_modulus);
+  return stress / (strain_share * least_travel * body.model->material().young_modulus);
 }
 
 /// True if the springs of all contacts of an island represent rigid contact.
@@ -169,9 +169,9 @@ bool starts_rigidly(const BlockSystem& system, RunState& state, IslandSolvers& s
       pair = pair.at_rigid_onset(result.responses[n], result.laws[n], opened_by * onset.farthest);
     }
     TimeScheme let_go = problem.scheme;
-    let_go.inertia = problem.scheme.inertia * motion / way;
+    let_go.inertia = problem.scheme.inertia * motion / least_travel;
     let_go.force_weight = onset.stiffer;
-    settings.multipliers.penetration_tolerance = depth_share * way * onset.smallest;
+    settings.multipliers.penetration_tolerance = depth_share * least_travel * onset.smallest;
     const IslandResult off =
         part.shared() ? solve_joined_island(system, island, released.bodies, pairs, let_go, settings)
                       : solve_island(island, released.bodies, pairs, let_go, settings, solvers);

@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on) {
+StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& may_continue) {
   BlockSystem& system = run.system;
   RunState& state = run.state;
   const SimulationSnapshot as_placed = snapshot_of(system, state, run.caches);
@@ -18,7 +18,7 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   for (const std::vector<int>& blocks : loose_blocks(system, state, run.caches.contacts))
     system.hold_loose(blocks);
   StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing && goes_on()) status = static_step(run, state.time(), far);
+  while (status == StaticStatus::balancing && may_continue()) status = static_step(run, state.time(), far);
   system.let_go_loose();
   if (status != StaticStatus::equilibrium) {
     system.exchange().restore_start(run, as_placed);

@@ -15,10 +15,11 @@
 namespace ashlar {
 
 /// Starts a run whose contacts have not been detected yet. With other processes collective.
-/// @param goes_on called before each iteration: false ends the analysis; the same on all processes
+/// @param may_continue called before each iteration: false ends the analysis; the same on all processes
 /// @return status of the static analysis, balancing if it was ended; unless it is equilibrium all blocks are as
 /// placed
-[[nodiscard]] StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on);
+[[nodiscard]] StaticStatus start_from_statics(const RunContext& run,
+                                              const std::function<bool()>& may_continue);
 
 /// Energy of the springs of all ties in the present state, J: records have those of contacts only.
 [[nodiscard]] double energy_of_ties(const BlockSystem& system, RunState& state, StepContacts& contacts);

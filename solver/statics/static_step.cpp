@@ -213,8 +213,8 @@ class StaticIteration {
   /// True if blocks have moved so far that neighbours have been found again.
   bool needs_other_neighbours() {
     const double distance =
-        system_.exchange().way_beyond(system_, caches_.contacts.finder(),
-                                      [this](int block) { return problem_.bodies[at(block)].motion(); });
+        system_.exchange().travel_beyond(system_, caches_.contacts.finder(),
+                                         [this](int block) { return problem_.bodies[at(block)].motion(); });
     if (distance > 0.0) system_.exchange().find_neighbours(run_, distance);
     return distance > 0.0;
   }

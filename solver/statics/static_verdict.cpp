@@ -151,7 +151,7 @@ bool note_balance(const BlockSystem& system, RunState& state, const StepProblem&
 
 bool repeats_motion(const BlockSystem& system, RunState& state, const StepProblem& problem, bool calm) {
   StaticCycle& cycle = state.statics.cycle;
-  double way = 0.0;  // since the start of the cycle, in block sizes
+  double travel = 0.0;  // since the start of the cycle, in block sizes
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
     if (!system.moving()[k] || !system.owns(static_cast<int>(k))) continue;
     const BodyStep& body = problem.bodies[k];
@@ -159,8 +159,8 @@ bool repeats_motion(const BlockSystem& system, RunState& state, const StepProble
            lacking_force(system, problem, k) <= repeating_share * body.largest_force + body.roundoff_force;
     if (cycle.positions.empty()) continue;
     const Eigen::MatrixX3d position = state.states[k].position + body.motion();
-    way = std::max(
-        way, mean_motion(system.blocks()[k], position - cycle.positions[k]) / block_size(system.blocks()[k]));
+    travel = std::max(travel, mean_motion(system.blocks()[k], position - cycle.positions[k]) /
+                                  block_size(system.blocks()[k]));
   }
   if (!all_of_run(system, calm)) {
     cycle = {};
@@ -169,7 +169,7 @@ bool repeats_motion(const BlockSystem& system, RunState& state, const StepProble
   ++cycle.iterations;
   if (!cycle.positions.empty() && cycle.iterations < repeating_iterations) return false;
   const bool came_back =
-      !cycle.positions.empty() && most_of_run(system, way) <= system.settings().statics.stillness;
+      !cycle.positions.empty() && most_of_run(system, travel) <= system.settings().statics.stillness;
   cycle.positions.clear();
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
     const bool moves = system.moving()[k] && system.owns(static_cast<int>(k));
@@ -198,12 +198,12 @@ void note_accelerations(const BlockSystem& system, RunState& state, IslandSolver
                         const StepProblem& problem) {
   auto [sliding, fail] = joints_of(problem, system.settings().tearing_gap());
   if (any_of_run(system, fail)) forget_accelerations(state);
-  const bool settled =
+  const bool converged =
       has_converged(system, problem) && all_of_run(system, sliding == state.statics.onset.sliding);
   state.statics.onset.sliding = std::move(sliding);
   // Until the same joints slide twice, the last iteration is the best: in the first ones inertia carries most of the
   // weight.
-  if (!settled && std::isfinite(state.statics.onset.least_residual)) return;
+  if (!converged && std::isfinite(state.statics.onset.least_residual)) return;
   bool near_start = true;
   for (int k = 0; k < system.count(); ++k)
     near_start =
@@ -215,7 +215,7 @@ void note_accelerations(const BlockSystem& system, RunState& state, IslandSolver
   for (std::size_t k = 0; k < system.blocks().size(); ++k)
     if (system.moving()[k])
       accelerations[k] = problem.scheme.inertia * system.blocks()[k].space().expand(problem.bodies[k].change);
-  if (settled) {
+  if (converged) {
     const bool rigid = starts_rigidly(system, state, solvers, problem, accelerations);
     double lacking = 0.0;
     for (std::size_t k = 0; k < system.blocks().size(); ++k)

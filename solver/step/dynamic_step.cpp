@@ -123,9 +123,9 @@ class DynamicStep {
 
   /// True if blocks have moved so far that neighbours have been found again.
   bool needs_other_neighbours(const std::function<Eigen::MatrixX3d(int block)>& motion) {
-    const double way = system_.exchange().way_beyond(system_, caches_.contacts.finder(), motion);
-    if (way > 0.0) system_.exchange().find_neighbours(run_, way);
-    return way > 0.0;
+    const double travel = system_.exchange().travel_beyond(system_, caches_.contacts.finder(), motion);
+    if (travel > 0.0) system_.exchange().find_neighbours(run_, travel);
+    return travel > 0.0;
   }
   bool needs_other_neighbours() {
     return needs_other_neighbours([this](int block) { return problem_.bodies[at(block)].motion(); });

@@ -44,8 +44,8 @@ class NoExchange final : public StepExchange {
                        const std::function<void(ByteReader&, int)>&) const override {}
   void tell_contacts(const BlockSystem&, RunState&) const override {}
 
-  [[nodiscard]] double way_beyond(const BlockSystem&, const ContactFinder&,
-                                  const std::function<Eigen::MatrixX3d(int)>&) const override {
+  [[nodiscard]] double travel_beyond(const BlockSystem&, const ContactFinder&,
+                                     const std::function<Eigen::MatrixX3d(int)>&) const override {
     return 0.0;
   }
   void find_neighbours(const RunContext&, double) override {}

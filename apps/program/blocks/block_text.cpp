@@ -56,22 +56,22 @@ std::string removable_text(const BlockReport& report, const std::vector<Removabl
       "key block                volume, m^3   factor   force, kN   centroid, m                direction\n";
   for (const RemovableBlock& of : keys) {
     const Vector3 at = scene.origin + centroid_of(report.loaded().solids[of.block]);
-    const Vector3& way = of.key.direction;
-    text +=
-        fmt::format("{:<24} {:>11.4g} {:>8.4g} {:>11.4g}   {:<24} {:<20} {}\n", scene.block[of.block].name,
-                    report.blocks()[of.block].volume, of.factor_of_safety, 1e-3 * of.needed,
-                    fmt::format("{:.4g}, {:.4g}, {:.4g}", at.x(), at.y(), at.z()),
-                    fmt::format("{:.2f}, {:.2f}, {:.2f}", way.x(), way.y(), way.z()), to_string(of.key.mode));
+    const Vector3& direction = of.key.direction;
+    text += fmt::format("{:<24} {:>11.4g} {:>8.4g} {:>11.4g}   {:<24} {:<20} {}\n",
+                        scene.block[of.block].name, report.blocks()[of.block].volume, of.factor_of_safety,
+                        1e-3 * of.needed, fmt::format("{:.4g}, {:.4g}, {:.4g}", at.x(), at.y(), at.z()),
+                        fmt::format("{:.2f}, {:.2f}, {:.2f}", direction.x(), direction.y(), direction.z()),
+                        to_string(of.key.mode));
   }
   return text;
 }
 
 Json key_json(const RemovableBlock& of) {
-  const Vector3& way = of.key.direction;
+  const Vector3& direction = of.key.direction;
   return {{"finite", of.key.finite},
           {"removable", of.key.removable},
           {"mode", to_string(of.key.mode)},
-          {"direction", way.isZero(0.0) ? Json() : Json{way.x(), way.y(), way.z()}},
+          {"direction", direction.isZero(0.0) ? Json() : Json{direction.x(), direction.y(), direction.z()}},
           {"factor_of_safety", of.factor_of_safety},
           {"weight", of.weight},
           {"needed_force", of.needed}};
@@ -145,7 +145,7 @@ std::string removable_csv(const BlockReport& report, const std::vector<Removable
   for (const RemovableBlock& of : key_blocks(removable)) {
     text += quote_csv_field(scene.block[of.block].name);
     const Vector3 at = scene.origin + centroid_of(report.loaded().solids[of.block]);
-    const Vector3& way = of.key.direction;
+    const Vector3& direction = of.key.direction;
     const auto add = [&text](double value) {
       text += ',';
       append_csv_number(text, value);
@@ -153,7 +153,8 @@ std::string removable_csv(const BlockReport& report, const std::vector<Removable
     add(report.blocks()[of.block].volume);
     for (const double value : {at.x(), at.y(), at.z()}) add(value);
     text += fmt::format(",{}", to_string(of.key.mode));
-    for (const double value : {way.x(), way.y(), way.z(), of.factor_of_safety, of.weight, of.needed})
+    for (const double value :
+         {direction.x(), direction.y(), direction.z(), of.factor_of_safety, of.weight, of.needed})
       add(value);
     text += '\n';
   }

@@ -55,7 +55,7 @@ std::vector<KeyGroup> find_mechanisms(const LoadedScene& loaded, const Removable
   wanted.factors = {analysis.safety.lower, analysis.safety.upper, analysis.safety.tolerance};
   wanted.wanted = search.wanted;
   wanted.most = most;
-  wanted.goes_on = [&progress, analyses = 0]() mutable {
+  wanted.may_continue = [&progress, analyses = 0]() mutable {
     progress.phase(fmt::format("mechanisms, limit analysis {}", ++analyses));
     return true;
   };

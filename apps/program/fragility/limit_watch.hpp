@@ -60,7 +60,7 @@ class LimitWatch : public RunObserver {
   /// @param record_end s, end of the record in the last stage
   LimitWatch(std::vector<Limit> limits, std::filesystem::path folder, double record_end);
 
-  [[nodiscard]] bool goes_on() override { return !outcome_.certain(); }
+  [[nodiscard]] bool may_continue() override { return !outcome_.certain(); }
   void run_begins(const Run& run) override;
   void step_taken(const Run& run) override;
   /// Stores the outcome, also one that is not certain: the run may be continued.

@@ -35,8 +35,8 @@ double error_in_equilibrium(Simulation simulation, const GoalValues& goal, doubl
 
 double plate_error(const ErrorTimeSetting& setting) {
   const GoalValues middle = [](const Simulation& now) {
-    const Vector3 way = displacement(now.blocks()[0], now.states()[0].position, middle_of_plate);
-    return std::vector<Goal>{{"middle", {way.z()}, 1e-12}};
+    const Vector3 moved = displacement(now.blocks()[0], now.states()[0].position, middle_of_plate);
+    return std::vector<Goal>{{"middle", {moved.z()}, 1e-12}};
   };
   return error_in_equilibrium(lone_block(clamped_plate(setting.order), {}, {}), middle, deflection_of_plate(),
                               setting);

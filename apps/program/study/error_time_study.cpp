@@ -52,8 +52,9 @@ double incline_error(const ErrorTimeSetting& setting) {
   Simulation simulation = scene.build();
   const Vector3 start = centroid(simulation, cube);
   if (!runs_to(simulation, time, setting)) return failed_run;
-  const double way = 0.5 * gravity * time * time * (std::sin(angle) - tangent_of(20.0) * std::cos(angle));
-  return std::abs((centroid(simulation, cube) - start).norm() / way - 1.0);
+  const double distance =
+      0.5 * gravity * time * time * (std::sin(angle) - tangent_of(20.0) * std::cos(angle));
+  return std::abs((centroid(simulation, cube) - start).norm() / distance - 1.0);
 }
 
 /// A cube that swells by 1 + e has the energy 9/2 B e^2, with its bulk modulus B, and the inertia rho / 4 for e.

@@ -98,8 +98,8 @@ class Processes {
     for (auto child = children_.begin(); child != children_.end(); ++child) {
       const std::optional<int> status = child->process.ended();
       if (!status) continue;
-      if (const double taken = RunClock::now() - child->began; taken > moment) {
-        taken_ += taken;
+      if (const double elapsed = RunClock::now() - child->began; elapsed > moment) {
+        elapsed_ += elapsed;
         ++timed_;
       }
       const std::size_t run = child->run;
@@ -132,7 +132,7 @@ class Processes {
   /// "; 12 min left"; empty: not to be told, or unknown
   [[nodiscard]] std::string time_left() const {
     if (!options_.tells_time || timed_ == 0 || stopped_ || done_ == runs_.size()) return "";
-    const double mean = taken_ / static_cast<double>(timed_);
+    const double mean = elapsed_ / static_cast<double>(timed_);
     const auto open = static_cast<double>(runs_.size() - done_);
     return fmt::format("; {} left", waiting_time(mean * open / std::min(static_cast<double>(jobs()), open)));
   }
@@ -148,7 +148,7 @@ class Processes {
   std::ostream& err_;
   std::vector<Child> children_;
   std::size_t done_ = 0, timed_ = 0;
-  double taken_ = 0.0;  ///< s, by timed runs in all
+  double elapsed_ = 0.0;  ///< s, by timed runs in all
   int status_ = exit_status::done;
   bool stopped_ = false;
 };

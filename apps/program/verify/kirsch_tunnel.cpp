@@ -54,10 +54,10 @@ Polyhedron sector_solid(const std::vector<Vector3>& inner, const std::vector<Vec
 
 /// Places at a ray's angle: on the wall, two circles, and the square.
 Vector3 place_on(const KirschTunnel& tunnel, std::size_t ring, double angle) {
-  const Vector3 way(std::cos(angle), 0.0, std::sin(angle));
+  const Vector3 radial(std::cos(angle), 0.0, std::sin(angle));
   constexpr std::array circles = {1.0, 1.4, 2.1};
-  if (ring < circles.size()) return circles[ring] * tunnel.radius * way;
-  return tunnel.half_width / std::max(way.x(), way.z()) * way;
+  if (ring < circles.size()) return circles[ring] * tunnel.radius * radial;
+  return tunnel.half_width / std::max(radial.x(), radial.z()) * radial;
 }
 
 std::vector<Vector3> polyline(const KirschTunnel& tunnel, const TunnelMesh& mesh, std::size_t ring,

@@ -196,9 +196,9 @@ class Simulation:
             while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
                 self._core.step()
                 bar.update()
-                goes_on = callback(self) if callback is not None else None
+                may_continue = callback(self) if callback is not None else None
                 # numpy's False is not the same object as Python's.
-                if goes_on is not None and not goes_on:
+                if may_continue is not None and not may_continue:
                     break
         return self.status
 

@@ -16,8 +16,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::vector<OrderError> worst_first(std::vector<OrderError> errors) {
-  std::stable_sort(errors.begin(), errors.end(),
-                   [](const OrderError& a, const OrderError& b) { return a.lacks > b.lacks; });
+  std::stable_sort(errors.begin(), errors.end(), [](const OrderError& a, const OrderError& b) {
+    return a.missing_energy > b.missing_energy;
+  });
   return errors;
 }
 
@@ -73,7 +74,7 @@ nlohmann::ordered_json error_summary(const Simulation& simulation, const OrderEr
   constexpr std::size_t most = 10;
   Json blocks = Json::array();
   for (const OrderError& error : worst_first(errors.errors)) {
-    if (error.lacks == 0.0 || blocks.size() == most) break;
+    if (error.missing_energy == 0.0 || blocks.size() == most) break;
     const BlockModel& block = simulation.blocks()[at(error.block)];
     blocks.push_back({{"block", block.name()}, {"order", block.order()}, {"estimate", error.relative()}});
   }

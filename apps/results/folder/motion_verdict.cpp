@@ -24,10 +24,10 @@ bool may_move(const Simulation& simulation, std::size_t block) {
 }
 
 /// Of the centroid since it was placed, m.
-Vector3 way_of(const Simulation& simulation, std::size_t block) {
+Vector3 displacement_of(const Simulation& simulation, std::size_t block) {
   const BlockModel& model = simulation.blocks()[block];
-  const Eigen::MatrixX3d way = simulation.states()[block].position - model.initial_state().position;
-  return way.transpose() * model.basis().values(model.basis().centroid());
+  const Eigen::MatrixX3d displacement = simulation.states()[block].position - model.initial_state().position;
+  return displacement.transpose() * model.basis().values(model.basis().centroid());
 }
 
 Vector3 down_of(const Simulation& simulation) {
@@ -60,7 +60,8 @@ void FallRecord::note(const Simulation& simulation) {
   if (down.isZero(0.0)) return;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     if (!may_move(simulation, k) || simulation.blocks()[k].incremental() != nullptr) continue;
-    if (!(way_of(simulation, k).dot(down) > fallen_share * block_size(simulation.blocks()[k]))) continue;
+    if (!(displacement_of(simulation, k).dot(down) > fallen_share * block_size(simulation.blocks()[k])))
+      continue;
     const int block = static_cast<int>(k);
     if (std::any_of(falls.begin(), falls.end(), [&](const BlockFall& fall) { return fall.block == block; }))
       continue;
@@ -89,9 +90,10 @@ MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record)
   const double lowest = lowest_of_held(simulation, down);
   for (const BlockFall& fall : record.falls) {
     if (!may_move(simulation, at(fall.block))) continue;
-    const Vector3 way = way_of(simulation, at(fall.block));
-    const double drop = way.dot(down);
-    verdict.fallen.push_back({fall.block, fall.time, drop, way.norm(), (way - drop * down).norm(),
+    const Vector3 displacement = displacement_of(simulation, at(fall.block));
+    const double drop = displacement.dot(down);
+    verdict.fallen.push_back({fall.block, fall.time, drop, displacement.norm(),
+                              (displacement - drop * down).norm(),
                               centroid_place(simulation, at(fall.block)).dot(down) > lowest});
   }
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {

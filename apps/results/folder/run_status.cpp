@@ -106,7 +106,7 @@ std::string describe_displaced(const Simulation& simulation) {
 
 std::string description_of(const StateFault& fault, const Simulation& simulation) {
   const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
-  if (fault.reason == RejectionReason::open_close_not_settled)
+  if (fault.reason == RejectionReason::open_close_not_converged)
     return fmt::format("contacts of blocks {} and {} alternate", name(fault.blocks[0]),
                        name(fault.blocks[1]));
   if (fault.reason != RejectionReason::too_deep) return fmt::format("block {}", name(fault.blocks[0]));

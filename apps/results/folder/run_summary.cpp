@@ -141,15 +141,15 @@ nlohmann::ordered_json json_of(const std::vector<FinishedStage>& stages, const S
 }
 
 /// Adds to each `place` in a value, also of nested ones.
-void move_places(nlohmann::ordered_json& json, const Vector3& way) {
+void move_places(nlohmann::ordered_json& json, const Vector3& shift) {
   for (auto& [key, value] : json.items()) {
     if (key == "place" && value.is_array() && value.size() == 3) {
       for (int axis = 0; axis < 3; ++axis) {
         auto& coordinate = value.at(static_cast<std::size_t>(axis));
-        coordinate = coordinate.get<double>() + way[axis];
+        coordinate = coordinate.get<double>() + shift[axis];
       }
     } else if (value.is_structured()) {
-      move_places(value, way);
+      move_places(value, shift);
     }
   }
 }

@@ -122,10 +122,10 @@ Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_
   const BlockState& state = simulation.states()[at(pair.a)];
   // The two points coincided at the start of the step: distance between them at the initial placement, and their
   // displacements since then.
-  const Vector3 way = gradient_at(a, state, point.material_a) * (point.material_b - point.material_a) +
-                      place_of(a, state, point.material_a) -
-                      place_of(b, simulation.states()[at(pair.b)], point.material_b);
-  return way - point.normal.dot(way) * point.normal;
+  const Vector3 displacement =
+      gradient_at(a, state, point.material_a) * (point.material_b - point.material_a) +
+      place_of(a, state, point.material_a) - place_of(b, simulation.states()[at(pair.b)], point.material_b);
+  return displacement - point.normal.dot(displacement) * point.normal;
 }
 
 BoltMeasure measured_bolt(const Simulation& simulation, const Measure& measure) {

@@ -30,8 +30,8 @@ std::vector<double> values_of(const Simulation& simulation, const Measure& measu
   switch (measure.kind) {
     case Measure::Kind::point:
     case Measure::Kind::block: {
-      const Vector3 way = measured_motion(simulation, measure).displacement;
-      return {way.x(), way.y(), way.z()};
+      const Vector3 displacement = measured_motion(simulation, measure).displacement;
+      return {displacement.x(), displacement.y(), displacement.z()};
     }
     case Measure::Kind::pair: {
       const PairMeasure pair = measured_pair(simulation, measure);

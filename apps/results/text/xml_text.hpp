@@ -41,15 +41,15 @@ namespace ashlar {
   std::string plain;
   plain.reserve(text.size());
   while (!text.empty()) {
-    std::size_t taken = 1;
+    std::size_t used = 1;
     char c = text.front();
     for (const auto& [entity, character] : entities) {
       if (!text.starts_with(entity)) continue;
-      taken = entity.size();
+      used = entity.size();
       c = character;
     }
     plain += c;
-    text.remove_prefix(taken);
+    text.remove_prefix(used);
   }
   return plain;
 }

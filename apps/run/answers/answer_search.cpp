@@ -76,7 +76,7 @@ AnswerSearch::Plan AnswerSearch::planned(const Simulation& placed) {
   return {limits_first, by_limits, method.reason};
 }
 
-bool AnswerSearch::goes_on(const RunObservers& observers) const {
+bool AnswerSearch::may_continue(const RunObservers& observers) const {
   return !group_.any(!observers.go_on());
 }
 
@@ -104,7 +104,7 @@ bool AnswerSearch::find_thrust_first(const Simulation& placed, const RunObserver
   answer_.thrust = std::move(found.thrust);
   answer_.states = std::move(found.states);
   whole_.reset();
-  if (group_.any(stopped) || !goes_on(observers))
+  if (group_.any(stopped) || !may_continue(observers))
     interrupted_ = "interrupted while supports moved, which a new run begins with";
   return false;
 }
@@ -123,7 +123,7 @@ bool AnswerSearch::find_pushover_first(const Simulation& placed, const RunObserv
   answer_.states = std::move(found.states);
   model_.reset();
   whole_.reset();
-  if (group_.any(stopped) || !goes_on(observers))
+  if (group_.any(stopped) || !may_continue(observers))
     interrupted_ = "interrupted while blocks were pushed, which a new run begins with";
   return false;
 }
@@ -158,7 +158,7 @@ bool AnswerSearch::advance_trial(const RunObservers& observers) {
     });
   }
   if (!trial_ && !begin_trial(observers)) return !answer_.bracket;
-  if (!goes_on(observers)) {
+  if (!may_continue(observers)) {
     interrupt_trial(observers);
     return false;
   }

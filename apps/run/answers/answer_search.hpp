@@ -55,7 +55,7 @@ class AnswerSearch {
     std::string reason;         ///< of the method; empty: the scene names it, or it was told
   };
   [[nodiscard]] Plan planned(const Simulation& placed);
-  [[nodiscard]] bool goes_on(const RunObservers& observers) const;
+  [[nodiscard]] bool may_continue(const RunObservers& observers) const;
   bool find_limits_first(const Simulation& placed, const RunObservers& observers);
   bool find_thrust_first(const Simulation& placed, const RunObservers& observers);
   bool find_pushover_first(const Simulation& placed, const RunObservers& observers);

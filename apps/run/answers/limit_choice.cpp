@@ -23,11 +23,11 @@ bool is_of_rigid_blocks(const SceneAnalysis& analysis) {
 std::string lacking_bolt(const Simulation& simulation) {
   for (const Bolt& bolt : simulation.system().bolts()) {
     const BoltLaw& law = bolt.chain.law();
-    const char* lacks = std::isinf(bolt_strength(law).shear)       ? "has no shear_strength"
-                        : is_unlimited(law)                        ? "has no yield_force"
-                        : law.rupture_strain != BoltLaw::unlimited ? "breaks (rupture_strain)"
-                                                                   : nullptr;
-    if (lacks != nullptr) return fmt::format("{} {}", bolt.name, lacks);
+    const char* missing = std::isinf(bolt_strength(law).shear)       ? "has no shear_strength"
+                          : is_unlimited(law)                        ? "has no yield_force"
+                          : law.rupture_strain != BoltLaw::unlimited ? "breaks (rupture_strain)"
+                                                                     : nullptr;
+    if (missing != nullptr) return fmt::format("{} {}", bolt.name, missing);
   }
   return "";
 }

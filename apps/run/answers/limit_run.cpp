@@ -181,21 +181,22 @@ namespace {
 
 /// @param reduced by point: its strength is divided by a factor of safety
 LimitFindings limits_of(const Scene& scene, RigidModel model, const std::vector<bool>& reduced,
-                        const Simulation& simulation, int threads, const std::function<bool()>& goes_on) {
+                        const Simulation& simulation, int threads,
+                        const std::function<bool()>& may_continue) {
   LimitFindings findings;
   findings.has_residual_strength = model.has_residual_strength;
   LimitAnalysis analysis(std::move(model), reduced, threads);
   const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
   const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
   const auto motion_of_path = [&](const LimitBracket& bracket) {
-    findings.path = find_path(scene, simulation, bracket, goes_on);
+    findings.path = find_path(scene, simulation, bracket, may_continue);
     std::optional<LimitTrial> motion = findings.path.answer.motion;
     // Points of the path are others than those of programmes.
     if (motion) motion->force.clear();
     return motion;
   };
-  findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, goes_on, motion_of_path)
-                                              : analysis.load_factor(search, goes_on, motion_of_path);
+  findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, may_continue, motion_of_path)
+                                              : analysis.load_factor(search, may_continue, motion_of_path);
   const std::optional<LimitTrial>& released = findings.answer.released.motion;
   const std::optional<LimitTrial>& associated = findings.answer.associated.motion;
   if (associated) findings.associated = analysis.motion_of(*associated);
@@ -218,13 +219,13 @@ constexpr double same_friction = 1e-3;
 }  // namespace
 
 LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
-                          const std::function<bool()>& goes_on) {
+                          const std::function<bool()>& may_continue) {
   const JointSelection selection(scene, scene.analysis.safety.of);
   const std::vector<bool> reduced = reduced_points(model, [&](int a, int b) {
     return selection.contains(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   });
   for (int n = 1;; ++n) {
-    LimitFindings findings = limits_of(scene, model, reduced, simulation, threads, goes_on);
+    LimitFindings findings = limits_of(scene, model, reduced, simulation, threads, may_continue);
     const std::optional<double>& stands = findings.answer.released.lower;
     if (!has_rough_joints(model) || findings.answer.interrupted || !stands) return findings;
     const LimitFactors limit =

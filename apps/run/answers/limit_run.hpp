@@ -15,10 +15,10 @@
 
 namespace ashlar {
 
-/// @param model of limit_model. @param simulation as placed, without factors. @param goes_on called before each trial;
+/// @param model of limit_model. @param simulation as placed, without factors. @param may_continue called before each trial;
 /// false ends the search
 [[nodiscard]] LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation& simulation,
-                                        int threads, const std::function<bool()>& goes_on);
+                                        int threads, const std::function<bool()>& may_continue);
 
 /// "factor of safety between 0.593 and 0.597 (rock.8 slides on one plane), up to 0.72 if joints wedge (...)"
 [[nodiscard]] std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,

@@ -117,23 +117,23 @@ SupportMovement find_movement(const Scene& scene, const RigidModel& model, const
   const SceneAnalysis::SupportSearch& asked = scene.analysis.movement;
   const double size = extent_of(model);
   const MovementSearch search{asked.direction, asked.limit.value_or(limit * size),
-                              asked.tolerance.value_or(tolerance * size), request.goes_on};
+                              asked.tolerance.value_or(tolerance * size), request.may_continue};
   return support_movement({simulation.system(), simulation.states(), simulation.histories(),
                            scene.analysis.end_time, request.threads},
                           request.support, search);
 }
 
-std::pair<const char*, const char*> ways_in_words(const SupportMovement& movement) {
+std::pair<const char*, const char*> senses_in_words(const SupportMovement& movement) {
   if (movement.away) return {"out", "in"};
   if (movement.direction) return {"along its direction", "against it"};
   return {"apart", "together"};
 }
 
 std::string describe(const SupportMovement& movement, const Simulation& simulation) {
-  const auto path_in_words = [](const SupportPath& path, const char* way) {
-    return fmt::format("{:.5g} m {} ({}{})", path.lower, way, end_in_words(path), slip_in_words(path));
+  const auto path_in_words = [](const SupportPath& path, const char* sense) {
+    return fmt::format("{:.5g} m {} ({}{})", path.lower, sense, end_in_words(path), slip_in_words(path));
   };
-  const auto [out, in] = ways_in_words(movement);
+  const auto [out, in] = senses_in_words(movement);
   return fmt::format("{} can move {}, {}{}", block_name(simulation, movement.support),
                      path_in_words(movement.out, out), path_in_words(movement.in, in),
                      movement.left_out_strength ? ", by friction alone" : "");

@@ -25,14 +25,14 @@ void refuse_movements(const Scene& scene, const std::optional<RigidModel>& model
 struct MovementRequest {
   int support;  ///< block
   int threads = 1;
-  std::function<bool()> goes_on;  ///< called before each step; false ends the search
+  std::function<bool()> may_continue;  ///< called before each step; false ends the search
 };
 /// Movement with the limit and the tolerance of the scene, or those derived from its size.
 [[nodiscard]] SupportMovement find_movement(const Scene& scene, const RigidModel& model,
                                             const Simulation& simulation, const MovementRequest& request);
 
 /// The two ways of a movement: "out" and "in", "along its direction" and "against it", "apart" and "together".
-[[nodiscard]] std::pair<const char*, const char*> ways_in_words(const SupportMovement& movement);
+[[nodiscard]] std::pair<const char*, const char*> senses_in_words(const SupportMovement& movement);
 
 /// "left can move 0.141 m out (collapses at 0.1411 m), 0.072 m in (...)"
 [[nodiscard]] std::string describe(const SupportMovement& movement, const Simulation& simulation);

@@ -32,7 +32,7 @@ Json or_null(const std::optional<double>& value) {
 }  // namespace
 
 PathFindings find_path(const Scene& scene, const Simulation& simulation, const LimitBracket& associated,
-                       const std::function<bool()>& goes_on) {
+                       const std::function<bool()>& may_continue) {
   const bool safety = scene.analysis.type == SceneAnalysis::Type::safety;
   RigidModel model = simulation.spring_model(scene.analysis.end_time,
                                              safety ? std::vector<bool>() : multiplied_blocks(scene));
@@ -49,7 +49,8 @@ PathFindings find_path(const Scene& scene, const Simulation& simulation, const L
       std::move(allowed));
   const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
   const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
-  found.answer = search_path(path, safety ? Sought::strength : Sought::load, search, associated, goes_on);
+  found.answer =
+      search_path(path, safety ? Sought::strength : Sought::load, search, associated, may_continue);
   if (found.answer.lower)
     found.rest =
         balanced_forces(path.model(), found.answer.force, path.reduced(), safety ? *found.answer.lower : 1.0);

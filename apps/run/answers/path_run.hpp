@@ -12,9 +12,10 @@
 namespace ashlar {
 
 /// Follows the path of a search for a factor. @param simulation as placed, without factors
-/// @param associated limit above which nothing stands. @param goes_on called before each trial; false ends the search
+/// @param associated limit above which nothing stands. @param may_continue called before each trial; false ends the search
 [[nodiscard]] PathFindings find_path(const Scene& scene, const Simulation& simulation,
-                                     const LimitBracket& associated, const std::function<bool()>& goes_on);
+                                     const LimitBracket& associated,
+                                     const std::function<bool()>& may_continue);
 
 /// "; joints yield from 1.235 on (rock and ground), blocks yield by 1.2 mm up to 1.24": empty if nothing yields before.
 [[nodiscard]] std::string onset_in_words(const PathFindings& path, const Simulation& simulation);

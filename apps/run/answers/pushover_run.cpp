@@ -66,14 +66,14 @@ std::vector<Vector3> directions_of(const Scene& scene, const Vector3& gravity) {
 }
 
 PushoverSearch search_along(const Scene& scene, const Simulation& simulation, const Vector3& direction,
-                            const std::function<bool()>& goes_on) {
+                            const std::function<bool()>& may_continue) {
   const ScenePushover& asked = scene.analysis.pushover;
   PushoverSearch search;
   search.direction = direction;
   search.limit = asked.limit.value_or(size_of_blocks(simulation));
   search.control = control_of(scene, simulation);
   search.shares = shares_of_check();
-  search.goes_on = goes_on;
+  search.may_continue = may_continue;
   if (!asked.blocks.empty()) search.multiplied = pushed_by_loads(scene);
   return search;
 }
@@ -177,7 +177,7 @@ void refuse_pushover(const Scene& scene, const std::optional<RigidModel>& model,
 }
 
 PushoverFindings find_pushover(const Scene& scene, const Simulation& simulation, int threads,
-                               const std::function<bool()>& goes_on) {
+                               const std::function<bool()>& may_continue) {
   const double end_time = scene.analysis.end_time;
   const Vector3 gravity = simulation.system().settings().gravity_at(end_time);
   const PlacedScene placed{simulation.system(), simulation.states(), simulation.histories(), end_time,
@@ -186,7 +186,7 @@ PushoverFindings find_pushover(const Scene& scene, const Simulation& simulation,
   for (const Vector3& direction : directions_of(scene, gravity)) {
     PushedDirection pushed;
     pushed.direction = direction;
-    pushed.path = pushover(placed, search_along(scene, simulation, direction, goes_on));
+    pushed.path = pushover(placed, search_along(scene, simulation, direction, may_continue));
     if (scene.analysis.pushover.blocks.empty())
       pushed.check =
           kinematic_check(pushed.path, scene.analysis.pushover, scene.analysis.spectrum, gravity.norm());

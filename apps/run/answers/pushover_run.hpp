@@ -18,9 +18,9 @@ namespace ashlar {
 /// move no block. @param model of limit_model
 void refuse_pushover(const Scene& scene, const std::optional<RigidModel>& model, Diagnostics& diagnostics);
 
-/// A pushover in each direction. @param goes_on called before each step; false ends the search
+/// A pushover in each direction. @param may_continue called before each step; false ends the search
 [[nodiscard]] PushoverFindings find_pushover(const Scene& scene, const Simulation& simulation, int threads,
-                                             const std::function<bool()>& goes_on);
+                                             const std::function<bool()>& may_continue);
 
 /// "multiplier 0.25, zero after 0.125 m (1 block moves); a0* 1.82 m/s^2, ..."
 [[nodiscard]] std::string describe(const PushoverFindings& findings, const Simulation& simulation);

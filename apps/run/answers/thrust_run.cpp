@@ -70,7 +70,7 @@ std::string drawn_line(const ThrustLine& line, const Simulation& simulation, con
 }  // namespace
 
 ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
-                           const std::function<bool()>& goes_on) {
+                           const std::function<bool()>& may_continue) {
   ThrustFindings findings;
   divide_for_thrust(model, scene.analysis.gravity, threads);
   for (const ThrustRange& range : thrust_ranges(model, scene.analysis.gravity, threads)) {
@@ -88,7 +88,7 @@ ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulatio
   }
   if (findings.supports.empty()) return findings;
   for (const int support : moved_supports(scene, model))
-    findings.movements.push_back(find_movement(scene, model, simulation, {support, threads, goes_on}));
+    findings.movements.push_back(find_movement(scene, model, simulation, {support, threads, may_continue}));
   return findings;
 }
 
@@ -140,7 +140,7 @@ std::vector<ShownState> thrust_states(const ThrustFindings& findings, const Simu
   }
   for (const SupportMovement& movement : findings.movements) {
     const std::string name = block_name(simulation, movement.support);
-    const auto [out, in] = ways_in_words(movement);
+    const auto [out, in] = senses_in_words(movement);
     add_state(states, movement.out, fmt::format("{} moved {:.5g} m {}", name, movement.out.lower, out));
     add_state(states, movement.in, fmt::format("{} moved {:.5g} m {}", name, movement.in.lower, in));
   }

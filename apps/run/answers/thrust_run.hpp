@@ -13,9 +13,9 @@
 
 namespace ashlar {
 
-/// @param model of limit_model. @param goes_on called during movements; false interrupts the last one
+/// @param model of limit_model. @param may_continue called during movements; false interrupts the last one
 [[nodiscard]] ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation,
-                                         int threads, const std::function<bool()>& goes_on);
+                                         int threads, const std::function<bool()>& may_continue);
 
 /// "thrust on abutment between 1.2e+04 and 3.4e+04 N; ..."
 [[nodiscard]] std::string describe(const ThrustFindings& findings, const Simulation& simulation);

@@ -19,7 +19,7 @@ std::string safe_end(const LimitBracket& bracket, const LimitSearch& search) {
 }  // namespace
 
 std::string undecided_factors(const Simulation& simulation, double end_time, int threads,
-                              const std::function<bool()>& goes_on) {
+                              const std::function<bool()>& may_continue) {
   if (simulation.shared_blocks() != nullptr || simulation.system().any_incremental() ||
       !lacking_bolt(simulation).empty())
     return "";
@@ -28,7 +28,7 @@ std::string undecided_factors(const Simulation& simulation, double end_time, int
   LimitAnalysis analysis(
       std::move(model), [](int, int) { return true; }, threads);
   const LimitSearch search;
-  const LimitAnswer answer = analysis.strength_factor(search, goes_on);
+  const LimitAnswer answer = analysis.strength_factor(search, may_continue);
   if (answer.interrupted || !answer.released.resolved || !answer.associated.resolved) return "";
   std::string motion;
   if (answer.released.motion)

@@ -34,20 +34,21 @@ bool is_inside_out(const BlockModel& block, const BlockState& state) {
 
 std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& simulation,
                                               Diagnostics& diagnostics) {
-  const std::vector<int> settled = simulation.settle_supported_blocks();
+  const std::vector<int> balanced = simulation.settle_supported_blocks();
   const Place place = scene.places.value("analysis.initial_state");
   std::vector<std::string> as_placed;
   bool any_held = false;
   const JointTable table(scene);
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     const BlockModel& block = simulation.blocks()[k];
-    const bool is_settled = std::find(settled.begin(), settled.end(), static_cast<int>(k)) != settled.end();
-    if (is_settled && is_inside_out(block, simulation.states()[k])) {
+    const bool is_balanced =
+        std::find(balanced.begin(), balanced.end(), static_cast<int>(k)) != balanced.end();
+    if (is_balanced && is_inside_out(block, simulation.states()[k])) {
       diagnostics.error(place, fmt::format("initial_state (\"equilibrium\") turns block \"{}\" inside out; "
                                            "reduce its load or raise its stiffness",
                                            block.name()));
     }
-    if (block.fixed() || is_settled) continue;
+    if (block.fixed() || is_balanced) continue;
     as_placed.push_back(block.name());
     if (!block.space().held() || has_tie(scene, table, k)) continue;
     any_held = true;
@@ -56,7 +57,7 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
                                     "starts as placed; less load or more supports may help",
                                     block.name()));
   }
-  if (settled.empty() && !any_held) {
+  if (balanced.empty() && !any_held) {
     diagnostics.warning(place,
                         "initial_state has no effect (\"equilibrium\"): it applies to blocks held by "
                         "their own supports, and there is none; all start as placed");
@@ -64,8 +65,8 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
   return as_placed;
 }
 
-StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>& goes_on) {
-  switch (simulation.start_from_statics(goes_on)) {
+StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>& may_continue) {
+  switch (simulation.start_from_statics(may_continue)) {
     case StaticStatus::moving:
       return {
           StaticStart::End::answered,
@@ -83,7 +84,7 @@ StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>
   }
   std::string why;
   const auto& fault = simulation.fault();
-  if (fault && fault->reason == RejectionReason::open_close_not_settled) {
+  if (fault && fault->reason == RejectionReason::open_close_not_converged) {
     const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
     why = fmt::format(" (contacts of blocks {} and {} alternate)", name(fault->blocks[0]),
                       name(fault->blocks[1]));

@@ -30,8 +30,8 @@ struct StaticStart {
   std::string message;  ///< message to the user; empty: all supported blocks are in equilibrium
 };
 /// Moves the blocks to their static state (Simulation::start_from_statics). Without equilibrium they start as placed.
-/// @param goes_on called before each iteration; false ends the analysis
-[[nodiscard]] StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>& goes_on);
+/// @param may_continue called before each iteration; false ends the analysis
+[[nodiscard]] StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>& may_continue);
 
 /// "A, B, C, D, E and 3 more": the first names.
 [[nodiscard]] std::string first_names(const std::vector<std::string>& names);

@@ -121,9 +121,9 @@ JointHeights::JointHeights(const SceneCut& cut, const std::vector<PlaneRange>& r
   too_many_ = too_many_ || count_ > most;
 }
 
-void JointHeights::draw_side(const std::vector<PlaneRange>& ranges, int way, double most) {
+void JointHeights::draw_side(const std::vector<PlaneRange>& ranges, int sense, double most) {
   std::mt19937_64 random =
-      random_stream(cut_.seed, way > 0 ? RandomStream::spacing_above : RandomStream::spacing_below);
+      random_stream(cut_.seed, sense > 0 ? RandomStream::spacing_above : RandomStream::spacing_below);
   const int limit = cut_.number.value_or(std::numeric_limits<int>::max());
   double height = 0.0;
   auto range = ranges.begin();
@@ -136,7 +136,7 @@ void JointHeights::draw_side(const std::vector<PlaneRange>& ranges, int way, dou
           fmt::format("more than {} spacings lie between its point and the blocks, a point that is "
                       "nearer to them, or a larger spacing, is needed",
                       most_drawn_spacings));
-    if (height >= range->low) drawn_.push_back({way * k, way * height});
+    if (height >= range->low) drawn_.push_back({sense * k, sense * height});
     too_many_ = static_cast<double>(drawn_.size()) > most;
   }
 }

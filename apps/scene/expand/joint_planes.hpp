@@ -65,7 +65,7 @@ class JointHeights {
   [[nodiscard]] std::vector<JointHeight> in(const PlaneRange& range) const;
 
  private:
-  void draw_side(const std::vector<PlaneRange>& ranges, int way, double most);
+  void draw_side(const std::vector<PlaneRange>& ranges, int sense, double most);
   /// Range of indices of planes drawn in a range.
   [[nodiscard]] std::pair<std::size_t, std::size_t> drawn_in(const PlaneRange& range) const;
 

@@ -148,9 +148,9 @@ Polyhedron build_shape(const Scene& scene, const SceneBlock& block) {
   }
 }
 
-Polyhedron translated(const Polyhedron& shape, const Vector3& way) {
+Polyhedron translated(const Polyhedron& shape, const Vector3& shift) {
   std::vector<Vector3> points = shape.mesh().points;
-  for (Vector3& point : points) point += way;
+  for (Vector3& point : points) point += shift;
   require_coordinates(points);
   try {
     return shape.with_points(std::move(points));

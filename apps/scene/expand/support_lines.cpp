@@ -94,10 +94,10 @@ BoltLaw law_of(const SceneBolt& bolt) {
 
 /// Finds the blocks of a bolt.
 void find_blocks(const LinesInBlocks& blocks, SupportLine& line) {
-  const Vector3 way = line.to - line.from;
-  const double length = way.norm();
+  const Vector3 span = line.to - line.from;
+  const double length = span.norm();
   std::vector<BoltSpan> spans =
-      parted(blocks.spans(line.from, way / length, 0.0, length), 0.1 * line.thickness);
+      parted(blocks.spans(line.from, span / length, 0.0, length), 0.1 * line.thickness);
   if (spans.empty()) {
     line.fault =
         fmt::format("bolt \"{}\" meets no block (from {} to {}), a line through blocks is needed", line.name,
@@ -121,13 +121,13 @@ std::optional<BoltSpan> block_at_end(const std::vector<BoltSpan>& spans, double 
 
 /// Finds the blocks at both ends. @param what bolt or prop
 void find_ends(const LinesInBlocks& blocks, const char* what, SupportLine& line) {
-  const Vector3 way = line.to - line.from;
-  const double length = way.norm();
+  const Vector3 span = line.to - line.from;
+  const double length = span.norm();
   const bool is_prop = line.thickness == 0.0;
   const auto find = [&](const Vector3& end, const Vector3& along) {
     return block_at_end(blocks.spans(end, along, -length, length), end_share * length, is_prop);
   };
-  const std::optional<BoltSpan> first = find(line.from, way / length), last = find(line.to, -way / length);
+  const std::optional<BoltSpan> first = find(line.from, span / length), last = find(line.to, -span / length);
   if (!first || !last) {
     line.fault =
         fmt::format("the end `{}` of {} \"{}\" is at no block ({}), a point on or in a block is needed",

@@ -46,7 +46,7 @@ constexpr std::array<MeshFormat, 9> mesh_formats = {{{".obj", "groups"},
 
 struct ForeignFormat {
   const char* ending;
-  const char* way;
+  const char* instead;
 };
 constexpr std::array<ForeignFormat, 7> foreign_formats = {
     {{".ifc", "IFC files are not read: IfcConvert writes OBJ with an object for each element"},
@@ -81,7 +81,8 @@ std::optional<fs::path> bodies_file(const fs::path& file) {
 ImportedModel read_model(const fs::path& file) {
   if (const std::optional<fs::path> bodies = bodies_file(file)) return read_lmgc90(*bodies);
   if (const ForeignFormat* foreign = format_of(file, foreign_formats))
-    throw ImportError({file.string(), 0, 0}, fmt::format("{}; `ashlar import` reads these", foreign->way));
+    throw ImportError({file.string(), 0, 0},
+                      fmt::format("{}; `ashlar import` reads these", foreign->instead));
   const TextFormat* format = format_of(file, text_formats);
   if (format == nullptr)
     throw ImportError(

@@ -32,8 +32,8 @@ std::optional<double> command_number(std::string_view word) {
 bool split(std::string_view line, int number, std::vector<PolyWord>& words) {
   std::string_view text = line.substr(0, line.find(';'));
   const std::size_t last = text.find_last_not_of(" \t\r\v\f");
-  const bool goes_on = last != std::string_view::npos && text[last] == '&';
-  if (goes_on) text = text.substr(0, last);
+  const bool may_continue = last != std::string_view::npos && text[last] == '&';
+  if (may_continue) text = text.substr(0, last);
   for (std::size_t begin = 0; begin < text.size();) {
     if (separates(text[begin])) {
       ++begin;
@@ -44,7 +44,7 @@ bool split(std::string_view line, int number, std::vector<PolyWord>& words) {
     words.push_back({text.substr(begin, end - begin), number, static_cast<int>(begin) + 1});
     begin = end;
   }
-  return goes_on;
+  return may_continue;
 }
 
 }  // namespace
@@ -60,9 +60,9 @@ std::vector<PolyStatement> poly_statements(std::string_view text) {
   int number = 0;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
-    const bool goes_on = split(text.substr(0, end), ++number, words);
+    const bool may_continue = split(text.substr(0, end), ++number, words);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (goes_on && !text.empty()) continue;
+    if (may_continue && !text.empty()) continue;
     if (!words.empty()) statements.emplace_back(std::exchange(words, {}));
   }
   return statements;

@@ -46,7 +46,7 @@ class XmlReader {
   XML_Parser parser_;
   XmlHandler& handler_;
   std::size_t levels_ = 0;
-  std::size_t taken_ = 0;
+  std::size_t consumed_ = 0;
   std::exception_ptr failure_;
 };
 
@@ -93,9 +93,9 @@ void XmlReader::take(std::string_view piece) {
   for (; !piece.empty(); piece.remove_prefix(std::min(piece.size(), most))) {
     const std::string_view part = piece.substr(0, most);
     check(XML_Parse(parser_, part.data(), static_cast<int>(part.size()), XML_FALSE) == XML_STATUS_OK);
-    taken_ += part.size();
+    consumed_ += part.size();
     const XML_Index parsed = std::max<XML_Index>(XML_GetCurrentByteIndex(parser_), 0);
-    if (taken_ - static_cast<std::size_t>(parsed) > longest_xml_token + most)
+    if (consumed_ - static_cast<std::size_t>(parsed) > longest_xml_token + most)
       throw error(
           fmt::format("tag or comment of more than {} bytes, which is what is allowed", longest_xml_token));
   }

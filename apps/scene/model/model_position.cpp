@@ -13,7 +13,7 @@ class Mover {
  public:
   /// @param sign of Scene::origin: -1 to the model, 1 to the user
   Mover(const Scene& scene, double sign)
-      : sign_(sign), way_(sign * scene.origin), climb_(up_of(scene).dot(way_)) {}
+      : sign_(sign), shift_(sign * scene.origin), climb_(up_of(scene).dot(shift_)) {}
 
   void move(Scene& scene) const {
     for (std::vector<SceneBlock>* blocks : {&scene.block, &scene.uncut})
@@ -42,41 +42,43 @@ class Mover {
     for (Entry& entry : entries) move(entry);
   }
 
-  void move(Vector3& point) const { point += way_; }
-  void move(ScenePlane& plane) const { plane.point += way_; }
+  void move(Vector3& point) const { point += shift_; }
+  void move(ScenePlane& plane) const { plane.point += shift_; }
   void move(std::variant<ScenePlane, Vector3>& where) const {
     std::visit([&](auto& place) { move(place); }, where);
   }
   void move(SceneField& field) const {
     if (field.at)
-      field.at = [at = std::move(field.at), way = way_](const Vector3& place) { return at(place - way); };
+      field.at = [at = std::move(field.at), shift = shift_](const Vector3& place) {
+        return at(place - shift);
+      };
   }
 
   /// Coordinates of a mesh are those of its file: SceneBlock::shape_origin.
-  static void move(SceneShape& shape, const Vector3& way) {
+  static void move(SceneShape& shape, const Vector3& shift) {
     if (auto* box = std::get_if<SceneBox>(&shape)) {
-      box->min += way;
-      box->max += way;
+      box->min += shift;
+      box->max += shift;
     } else if (auto* hull = std::get_if<SceneHull>(&shape)) {
-      for (Vector3& point : hull->points) point += way;
+      for (Vector3& point : hull->points) point += shift;
     } else if (auto* sphere = std::get_if<SceneSphere>(&shape)) {
-      sphere->center += way;
+      sphere->center += shift;
     }
   }
 
   void move(std::optional<SceneRegion>& region) const {
     if (!region) return;
     if (auto* half = std::get_if<SceneHalfspace>(&region->space))
-      half->point += way_;
+      half->point += shift_;
     else
-      move(std::get<SceneShape>(region->space), way_);
+      move(std::get<SceneShape>(region->space), shift_);
   }
 
   void move(SceneBlock& block) const {
     const Vector3 of_shape = sign_ * block.shape_origin;
     move(block.shape, of_shape);
     if (block.rotate) block.rotate->about += of_shape;
-    block.translate += way_ - of_shape;
+    block.translate += shift_ - of_shape;
     move_all(block.fix);
     move_all(block.load);
   }
@@ -91,18 +93,18 @@ class Mover {
   /// Measured joints are read when they cut.
   void move(SceneCut& cut) const {
     move(cut.inside);
-    cut.point += way_;
-    move(cut.solid, way_);
+    cut.point += shift_;
+    move(cut.solid, shift_);
   }
 
   void move(SceneBolt& bolt) const {
-    bolt.from += way_;
-    bolt.to += way_;
+    bolt.from += shift_;
+    bolt.to += shift_;
     if (bolt.pattern) move(bolt.pattern->plane);
   }
   void move(SceneProp& prop) const {
-    prop.from += way_;
-    prop.to += way_;
+    prop.from += shift_;
+    prop.to += shift_;
   }
   void move(SceneMovingLoad& load) const {
     for (SceneMovingLoad::Stop& stop : load.path) move(stop.place);
@@ -139,7 +141,7 @@ class Mover {
   }
 
   double sign_;
-  Vector3 way_;
+  Vector3 shift_;
   double climb_;  ///< m, of heights along the direction against gravity
 };
 

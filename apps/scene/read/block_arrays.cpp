@@ -8,20 +8,20 @@
 namespace ashlar {
 namespace {
 
-void move(std::variant<ScenePlane, Vector3>& where, const Vector3& way) {
+void move(std::variant<ScenePlane, Vector3>& where, const Vector3& shift) {
   if (Vector3* point = std::get_if<Vector3>(&where))
-    *point += way;
+    *point += shift;
   else
-    std::get<ScenePlane>(where).point += way;
+    std::get<ScenePlane>(where).point += shift;
 }
 
-SceneBlock moved(const SceneBlock& block, const Vector3& way, std::size_t number) {
+SceneBlock moved(const SceneBlock& block, const Vector3& shift, std::size_t number) {
   SceneBlock copy = block;
   copy.array.reset();
   copy.name = fmt::format("{}.{}", block.name, number);
-  copy.translate += way;
-  for (SceneFix& fix : copy.fix) move(fix.where, way);
-  for (SceneLoad& load : copy.load) move(load.where, way);
+  copy.translate += shift;
+  for (SceneFix& fix : copy.fix) move(fix.where, shift);
+  for (SceneLoad& load : copy.load) move(load.where, shift);
   return copy;
 }
 
@@ -56,9 +56,9 @@ std::vector<SceneBlock> blocks_of_array(const SceneBlock& block) {
     for (int j = 0; j < count[1]; ++j)
       for (int i = 0; i < count[0]; ++i) {
         const int last = array.count.size() == 1 ? i : array.count.size() == 2 ? j : k;
-        Vector3 way = i * step[0] + j * step[1] + k * step[2];
-        if (last % 2 == 1) way += array.stagger;
-        blocks.push_back(moved(block, way, blocks.size() + 1));
+        Vector3 shift = i * step[0] + j * step[1] + k * step[2];
+        if (last % 2 == 1) shift += array.stagger;
+        blocks.push_back(moved(block, shift, blocks.size() + 1));
       }
   return blocks;
 }

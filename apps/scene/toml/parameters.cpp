@@ -48,19 +48,19 @@ class ParameterOrder {
     for (const auto& [candidate, parameter] : parameters_)
       if (name.empty() && is_left(candidate)) name = candidate;
     // Each remaining parameter uses another remaining one.
-    std::vector<std::string> way;
+    std::vector<std::string> chain;
     while (!name.empty()) {
-      const auto seen = std::find(way.begin(), way.end(), name);
-      if (seen != way.end()) {
-        way.erase(way.begin(), seen);
-        way.push_back(name);
-        return way;
+      const auto seen = std::find(chain.begin(), chain.end(), name);
+      if (seen != chain.end()) {
+        chain.erase(chain.begin(), seen);
+        chain.push_back(name);
+        return chain;
       }
-      way.push_back(name);
+      chain.push_back(name);
       const std::set<std::string>& needs = parameters_.at(name).needs;
       name = *std::find_if(needs.begin(), needs.end(), is_left);
     }
-    return way;
+    return chain;
   }
 
   [[nodiscard]] const toml::node& node(const std::string& name) const { return *parameters_.at(name).node; }

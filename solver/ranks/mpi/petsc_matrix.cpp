@@ -175,9 +175,9 @@ void PetscMatrix::set_entries(const std::vector<BodyRows>& rows) {
 }
 
 void PetscMatrix::set_rigid_motions(const std::vector<BodyRows>& rows) {
-  const bool lacks =
+  const bool missing =
       std::any_of(rows.begin(), rows.end(), [](const BodyRows& row) { return row.rigid.cols() != 6; });
-  if (any_rank(ranks_, lacks)) return;
+  if (any_rank(ranks_, missing)) return;
   std::vector<Vec> directions;
   for (int motion = 0; motion < 6; ++motion) {
     Vec direction = nullptr;

@@ -187,9 +187,9 @@ bool PetscMethod::solve(const Eigen::VectorXd& right_side, bool refined, Eigen::
   check_petsc(VecDot(right_side_, solution_, &energy));
   const bool good = reason > 0 && energy >= 0.0;
   if (iterates_) {
-    PetscInt taken = 0;
-    check_petsc(KSPGetIterationNumber(solver_, &taken));
-    iterations_ += static_cast<std::uint64_t>(taken);
+    PetscInt iterations = 0;
+    check_petsc(KSPGetIterationNumber(solver_, &iterations));
+    iterations_ += static_cast<std::uint64_t>(iterations);
   } else if (good && refined) {
     refine();
   }

@@ -142,7 +142,7 @@ class AcceptedContacts {
         friction += slid;
         damped += ContactPair::damped(response);
         if (system_.settings().augmented && scheme_.is_static())
-          state_.pairs[{pair.a(), pair.b()}].taken = taken_in_statics(pair, response);
+          state_.pairs[{pair.a(), pair.b()}].spent = taken_in_statics(pair, response);
         else if (system_.settings().augmented)
           take_for_multipliers(pair, -pair.spring_work(response, ya, yb) - slid);
         count_states(response.points, report);
@@ -173,7 +173,7 @@ class AcceptedContacts {
     double change = 0.0;
     std::set<PairKey> going_on;  // their springs, like ties, are the same as before
     for (const ContactPair& pair : problem_.pairs) {
-      if (pair.goes_on())
+      if (pair.continues())
         going_on.insert({pair.a(), pair.b()});
       else if (!pair.tied() && system_.owns_pair(pair.a(), pair.b()))
         change += pair.start_energy();
@@ -189,7 +189,7 @@ class AcceptedContacts {
   /// Adds energy that the blocks of a pair have spent on multipliers to its account. Energy released beyond the account
   /// is booked as gained. @param work J; negative: released
   void take_for_multipliers(const ContactPair& pair, double work) {
-    state_.ledger.multipliers_gave(book(work, state_.pairs[{pair.a(), pair.b()}].taken));
+    state_.ledger.multipliers_gave(book(work, state_.pairs[{pair.a(), pair.b()}].spent));
   }
 
   /// Keeps records of pairs whose blocks do not move, with their part of the report, and drops the others.

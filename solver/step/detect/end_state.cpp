@@ -20,8 +20,9 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
     if (!std::isfinite(vector->squaredNorm())) return true;
   if (!std::isfinite(position.squaredNorm())) return true;
   const double volume = block.basis().volume();
-  const Eigen::MatrixX3d way = position - block.basis().identity_map();
-  const double rounding = std::numeric_limits<double>::epsilon() * way.row(0).norm() / std::sqrt(volume);
+  const Eigen::MatrixX3d displacement = position - block.basis().identity_map();
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * displacement.row(0).norm() / std::sqrt(volume);
   return rounding > share * std::cbrt(volume);
 }
 
@@ -155,7 +156,7 @@ RejectionCause cause_here(const BlockSystem& system, const RunState& state, cons
       broken && broken->reason == RejectionReason::not_finite)
     return {broken->reason, broken};
   if (status != IslandStatus::not_converged) return {RejectionReason::not_positive_definite, std::nullopt};
-  constexpr RejectionReason reason = RejectionReason::open_close_not_settled;
+  constexpr RejectionReason reason = RejectionReason::open_close_not_converged;
   const auto found =
       std::find_if(problem.results.begin(), problem.results.end(), [](const IslandResult& result) {
         return result.status == IslandStatus::not_converged && result.alternating[0] >= 0;

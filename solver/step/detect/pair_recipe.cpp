@@ -37,7 +37,7 @@ PairRecipe kept_recipe(const RunState& state, const PairKey& blocks, const KeptC
   law.rounding = kept.cache->law.rounding;
   PatchStart start;
   start.continues = true;
-  if (law.augmented) start.frozen = known.taken;
+  if (law.augmented) start.frozen = known.spent;
   return {blocks,
           law,
           {kept.points, kept.cache->found.cuts, kept.cache->found.turning, kept.cache->rows, kept.cache},
@@ -48,7 +48,7 @@ PairRecipe kept_recipe(const RunState& state, const PairKey& blocks, const KeptC
 void bound_energies(const BlockSystem& system, const RunState& state, std::vector<ContactPair>& pairs) {
   const bool alone = system.exchange().alone();
   const bool all_go_on =
-      std::all_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.goes_on(); });
+      std::all_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.continues(); });
   if (all_go_on && alone) return;
   const EnergyExchange exchange{
       [&system](const PairKey& blocks) { return system.owns_pair(blocks[0], blocks[1]); },
@@ -56,7 +56,7 @@ void bound_energies(const BlockSystem& system, const RunState& state, std::vecto
   const std::vector<SpringEnergy> bounds =
       energy_bounds(pairs, state.pairs, system.moving(), alone ? nullptr : &exchange);
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (!pairs[k].goes_on()) pairs[k].hold_at_most(bounds[k]);
+    if (!pairs[k].continues()) pairs[k].hold_at_most(bounds[k]);
 }
 
 }  // namespace ashlar

@@ -56,7 +56,7 @@ double unbalanced_share(const Sleep& sleep, const BodyStep& body, const BlockRes
 
 /// True if a block hardly moves any more. @param checked upper bound of its path in the last step, m
 bool fades(const SimulationSettings& settings, const BlockRest& rest, double checked) {
-  return rest.last_path + rest.path + checked <= settings.rest.way_share * settings.contact_distance &&
+  return rest.last_path + rest.path + checked <= settings.rest.path_share * settings.contact_distance &&
          rest.path <= settings.rest.fading * rest.last_path;
 }
 

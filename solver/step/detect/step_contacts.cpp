@@ -101,9 +101,9 @@ std::vector<Vector3> moved_in_level(const BlockSystem& system, const RunState& s
 /// to balance.
 bool is_far(const BlockSystem& system, const RunState& state, int block) {
   const BlockModel& model = system.blocks()[at(block)];
-  const Eigen::MatrixX3d way = state.states[at(block)].position - state.statics.level_start[at(block)];
+  const Eigen::MatrixX3d retraction = state.states[at(block)].position - state.statics.level_start[at(block)];
   return system.moving()[at(block)] &&
-         mean_motion(model, way) > system.settings().statics.motion * block_size(model);
+         mean_motion(model, retraction) > system.settings().statics.motion * block_size(model);
 }
 
 /// Makes the slip of a load level permanent: later slip counts from there.
@@ -247,17 +247,19 @@ const Retractions& StepContacts::retractions(const RunState& state, const std::v
 
 void StepContacts::remove_internal_edges_of(const BlockSystem& system, const RunState& state,
                                             std::vector<FoundContacts>& found) {
-  const Retractions& ways = retractions(state, system.moving(), found);
+  const Retractions& retractions = retractions(state, system.moving(), found);
   const BlockCompression given = compression_of(system, state);
   const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
-  const auto stands = [&](const Retraction& way) { return retractions_->stands(way, found, placed, given); };
+  const auto stands = [&](const Retraction& retraction) {
+    return retractions_->stands(retraction, found, placed, given);
+  };
   for (FoundContacts& pair : found) {
     if (pair.kept != nullptr) continue;
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
     remove_internal_edges(
-        a, b, ways.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given), stands,
-        pair.contacts);
+        a, b, retractions.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
+        stands, pair.contacts);
     if (observer_) observer_(ContactStage::internal_edge, pair.blocks, pair.contacts);
   }
 }
@@ -272,13 +274,13 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
   const ContactBody body_b = body_at_start(system, state, b, &finder_.placed(b));
   const PairHistory& known = history_of(state.pairs, blocks);
   const SimulationSettings& settings = system.settings();
-  const bool goes_on = use == PairUse::motion && state.has_begun();
+  const bool may_continue = use == PairUse::motion && state.has_begun();
   const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented,
                                             known.overlap};
   const std::vector<bool> references_on_a = reference_is_on_a(
       body_a, body_b, contacts.overlaps,
       [&covered, a = a, b = b](const RimPlace& rim) {
-        return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
+        return rim.of_a ? covered.may_continue(b, a, rim) : covered.may_continue(a, b, rim);
       },
       order_.is_before(a, b));
   ContactPoints made = contact_points(body_a, body_b, contacts, references_on_a, point_settings,
@@ -293,7 +295,7 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
   law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
   PatchStart start;
   if (use == PairUse::motion && !state.has_begun()) start.touch_within = law.rounding;
-  if (goes_on && law.augmented) start.frozen = known.taken;
+  if (may_continue && law.augmented) start.frozen = known.spent;
   start.freezes_failure = use == PairUse::statics && state.statics.freezes_failure;
   if (use == PairUse::statics && !state.statics.level_start.empty()) {
     start.moved_in_level = moved_in_level(system, state, blocks, points);
@@ -314,7 +316,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
                                              const std::vector<FoundContacts>& found, PairUse use) {
   const Stopwatch watch(state.log.seconds.contact_points);
   const SimulationSettings& settings = system.settings();
-  const bool goes_on = use == PairUse::motion && state.has_begun();
+  const bool may_continue = use == PairUse::motion && state.has_begun();
   const bool all_kept =
       std::all_of(found.begin(), found.end(), [](const FoundContacts& pair) { return pair.kept != nullptr; });
   SurfaceContinuation covered(settings.contact_distance);
@@ -351,7 +353,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
                [&](std::size_t n) { assembled[n] = make_pair(system, state, std::move(recipes[n])); });
   std::vector<ContactPair> pairs;
   for (std::optional<ContactPair>& pair : assembled) pairs.push_back(std::move(*pair));
-  if (goes_on) bound_energies(system, state, pairs);
+  if (may_continue) bound_energies(system, state, pairs);
   for (const TiedBlocks& tied : system.ties()) {
     if (!system.moving()[at(tied.a)] && !system.moving()[at(tied.b)]) continue;
     pairs.emplace_back(PairBodies{tied.a, tied.b, body_at_start(system, state, tied.a, nullptr),
@@ -370,13 +372,15 @@ std::vector<PassingBlocks> StepContacts::check_motion(const BlockSystem& system,
   const Retractions& retractions = this->retractions(state, system.moving(), found);
   const BlockCompression given = compression_of(system, state);
   const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
-  const auto stands = [&](const Retraction& way) { return retractions_->stands(way, found, placed, given); };
+  const auto stands = [&](const Retraction& retraction) {
+    return retractions_->stands(retraction, found, placed, given);
+  };
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
-    const std::vector<Retraction> ways =
+    const std::vector<Retraction> retractions =
         retractions.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
-    return at_internal_edge(a, b, ways, stands, pair.touch);
+    return at_internal_edge(a, b, retractions, stands, pair.touch);
   });
   return passing;
 }

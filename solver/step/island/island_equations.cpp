@@ -345,16 +345,16 @@ double IslandProblem::left_out(std::size_t k) const {
   const BodyStep& a = bodies_[at(pair(k).a())];
   const BodyStep& b = bodies_[at(pair(k).b())];
   const Eigen::Matrix3Xd motion = pair(k).motion(a.change, b.change);
-  const auto slip = [&](const Eigen::Matrix3Xd& way) {
+  const auto slip = [&](const Eigen::Matrix3Xd& displacement) {
     double most = 0.0;
     for (std::size_t n = 0; n < laws_[k].size(); ++n) {
       if (contacts_.states[table_.first_point(k) + n] == ContactState::open) continue;
-      most = std::max(most, way.col(static_cast<Eigen::Index>(n)).tail<2>().norm());
+      most = std::max(most, displacement.col(static_cast<Eigen::Index>(n)).tail<2>().norm());
     }
     return most;
   };
-  const auto turn = [](const BlockModel& model, const Eigen::MatrixX3d& way) {
-    return (way.transpose() * model.parts()->mean_gradients).norm();
+  const auto turn = [](const BlockModel& model, const Eigen::MatrixX3d& displacement) {
+    return (displacement.transpose() * model.parts()->mean_gradients).norm();
   };
   const auto turned = [&](const BodyStep& body) {
     return body.model->fixed() ? 0.0 : turn(*body.model, body.motion());

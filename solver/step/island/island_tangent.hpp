@@ -35,11 +35,10 @@ class IslandTangent {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool coupled);
 
  private:
-  /// Product of a change and the stiffnesses of the points of one of the island's pairs, along x, y, z.
+  /// Product of a change and the stiffnesses of the points of a pair, along x, y, z.
   struct PairProduct {
-    std::size_t pair;
-    PointStiffnesses points;
-    Eigen::VectorXd on_a;  ///< forces on the unknowns of a, N; empty: fixed
+    PointStiffnesses points;  ///< without columns: none
+    Eigen::VectorXd on_a;     ///< forces on the unknowns of a, N; empty: fixed
     Eigen::VectorXd on_b;
   };
 
@@ -60,7 +59,7 @@ class IslandTangent {
   [[nodiscard]] double weight_of_dashpots() const;
   /// Adds the forces of the blocks' inertia and stiffness due to a change. @param x (equations)
   void add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const;
-  /// Products of pairs that have stiffnesses. @param stiffnesses of the points of a pair, without columns: none
+  /// Products of all pairs. @param stiffnesses of the points of a pair, without columns: none
   [[nodiscard]] std::vector<PairProduct> products_of(
       const std::function<PointStiffnesses(std::size_t pair)>& stiffnesses) const;
   /// Adds products of the stiffnesses of contact points and a change. @param with_bolts those of bolts too

@@ -16,8 +16,8 @@ double compression_of(const PointLaw& law, const PointResponse& point, double ga
   const double allowed = settings.multipliers.share * settings.multipliers.penetration_tolerance;
   const double left = std::clamp(1.0 + gap / settings.multipliers.tolerated_depth(), least, 1.0);
   double most = 0.0;
-  const auto look_at = [&most](double force, double stiffness, double way) {
-    if (stiffness > 0.0) most = std::max(most, force / (stiffness * way));
+  const auto look_at = [&most](double force, double stiffness, double distance) {
+    if (stiffness > 0.0) most = std::max(most, force / (stiffness * distance));
   };
   const double change = point.force[0] - law.normal_multiplier;
   look_at(std::abs(change), law.normal_stiffness, change > 0.0 ? left * allowed : allowed);
@@ -58,7 +58,7 @@ bool Augmentation::lower_multipliers(IslandProblem& problem) {
     const std::vector<PointResponse>& points = problem.responses()[pair].points;
     double force = 0.0;
     for (const PointResponse& point : points) force += std::max(0.0, point.force[0]);
-    if (!(problem.given(pair) - problem.pair(pair).taken() > accuracy * force)) continue;
+    if (!(problem.given(pair) - problem.pair(pair).spent() > accuracy * force)) continue;
     for (std::size_t k = 0; k < laws.size(); ++k) {
       const Eigen::Vector2d shear = points[k].force.tail<2>();
       const double fall = std::max(0.0, laws[k].normal_multiplier - points[k].force[0]);

@@ -22,13 +22,13 @@ class ContactLine {
   /// Gap over the rest and trial slip of a pair's points, (3, #points), m.
   struct PairLine {
     Eigen::Matrix3Xd start;  ///< at share 0
-    Eigen::Matrix3Xd way;    ///< change over the whole step of the line
+    Eigen::Matrix3Xd whole;  ///< change over the whole step of the line
   };
 
   /// Deformation of a bolt, m.
   struct BoltLine {
     Eigen::VectorXd start;
-    Eigen::VectorXd way;
+    Eigen::VectorXd whole;
   };
 
   /// True on one of the processes that share the island: each bolt counts once.

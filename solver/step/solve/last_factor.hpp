@@ -13,8 +13,8 @@ class LastFactor {
   explicit LastFactor(bool rows_updated)
       : last_(rows_updated ? std::numeric_limits<double>::infinity() : 0.0) {}
 
-  /// @param as_before the states are those of the factor. @param nearly_settled residual from which one more use is enough
-  [[nodiscard]] bool is_good_enough(double residual, bool as_before, double nearly_settled) {
+  /// @param as_before the states are those of the factor. @param nearly_converged residual from which one more use is enough
+  [[nodiscard]] bool is_good_enough(double residual, bool as_before, double nearly_converged) {
     // Updated rows differ little: the last factor is used while it reduces the residual by nine tenths each time.
     constexpr double most_of_it = 0.1;
     // With unchanged states, a system that has reduced the residual so far will do so again.
@@ -23,7 +23,7 @@ class LastFactor {
     last_ = falls ? residual : 0.0;
     const double before = std::exchange(before_, residual);
     const bool contracts = as_before && residual < nearly_all * before;
-    used_again_ = falls || contracts || (as_before && !used_again_ && residual <= nearly_settled);
+    used_again_ = falls || contracts || (as_before && !used_again_ && residual <= nearly_converged);
     return used_again_;
   }
 

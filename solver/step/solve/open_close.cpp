@@ -152,7 +152,7 @@ class OpenClose {
       if (!seen.empty()) note_changes(seen.back(), states);
       seen.push_back(std::move(states));
       const bool reused =
-          last_factor.is_good_enough(residual.largest, as_before, settings_.iteration.nearly_settled);
+          last_factor.is_good_enough(residual.largest, as_before, settings_.iteration.nearly_converged);
       factorized_ = true;
       if (!reused && tangent_.update_factor() != FactorStatus::success) return Outcome::singular;
       const Eigen::VectorXd change = tangent_.solve(residual.force, true);
@@ -233,7 +233,7 @@ class OpenClose {
       Eigen::Map<Eigen::VectorXd> held(limits.data(), static_cast<Eigen::Index>(limits.size()));
       const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(next.data(), held.size()) - held;
       const double share =
-          pass < settings_.iteration.plain_passes || pass % 3 != 2 ? 1.0 : way_on(change, last_change);
+          pass < settings_.iteration.plain_passes || pass % 3 != 2 ? 1.0 : share_on(change, last_change);
       held = (held + share * change).cwiseMax(0.0);
       last_change = change;
     }
@@ -242,7 +242,7 @@ class OpenClose {
 
   /// Extrapolated limit of a repetition whose changes shrink, grow or alternate by a factor, in units of the last
   /// one. Forces are bounded: a growing change meets another solution ahead.
-  [[nodiscard]] double way_on(const Eigen::VectorXd& change, const Eigen::VectorXd& last_change) const {
+  [[nodiscard]] double share_on(const Eigen::VectorXd& change, const Eigen::VectorXd& last_change) const {
     constexpr double farthest = 10.0;
     const double last = product_of_bounds(last_change, last_change);
     const double factor = last > 0.0 ? product_of_bounds(change, last_change) / last : 0.0;

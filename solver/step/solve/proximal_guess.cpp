@@ -57,10 +57,10 @@ void project_on_law(const LawAt& law_at, const Law& law, const Vector3d& place, 
   constexpr double enough = 1e-6;  // of the forces
   for (int k = 0; k < most; ++k) {
     const LawForce mean = respond(gap);
-    const double lacks = left(gap, mean.force[0]);
-    if (!(std::abs(lacks) > enough * (std::abs(force[0]) + std::abs(mean.force[0])))) break;
-    (lacks > 0.0 ? high : low) = gap;
-    gap -= lacks / (penalty[0] + mean.normal_stiffness);
+    const double rest = left(gap, mean.force[0]);
+    if (!(std::abs(rest) > enough * (std::abs(force[0]) + std::abs(mean.force[0])))) break;
+    (rest > 0.0 ? high : low) = gap;
+    gap -= rest / (penalty[0] + mean.normal_stiffness);
     if (!(gap > low && gap < high)) gap = 0.5 * (low + high);
   }
   copy[0] = gap;

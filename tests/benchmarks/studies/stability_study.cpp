@@ -72,7 +72,7 @@ void choose_numbers(ContactScene& scene, const Subject& subject) {
 }
 
 /// Settlement of the top of the uppermost block by the formula, m.
-double settled_by_hand(const Subject& subject, double normal_stiffness) {
+double balanced_by_hand(const Subject& subject, double normal_stiffness) {
   const double height = subject.extent().z();
   const double lower = block_density * earth_gravity * height;  // Pa, at its bottom
   const double upper = subject.mass_ratio * lower;
@@ -81,7 +81,7 @@ double settled_by_hand(const Subject& subject, double normal_stiffness) {
 }
 
 /// Mean settlement of the top corners of the uppermost block, m.
-double settled(const Simulation& simulation) {
+double at_rest(const Simulation& simulation) {
   const BlockModel& block = simulation.blocks().back();
   const auto& points = block.solid().mesh().points;
   double top = -std::numeric_limits<double>::infinity();
@@ -118,8 +118,8 @@ StabilityOutcome rest(const Subject& subject) {
   const bool ended = find_equilibrium(simulation) == StaticStatus::equilibrium;
   StabilityOutcome outcome = outcome_of(simulation);
   outcome.ended = ended;
-  const double by_hand = settled_by_hand(subject, normal_stiffness);
-  outcome.error = std::abs(settled(simulation) / by_hand - 1.0);
+  const double by_hand = balanced_by_hand(subject, normal_stiffness);
+  outcome.error = std::abs(at_rest(simulation) / by_hand - 1.0);
   outcome.promised = promised_at_rest(subject, by_hand);
   return outcome;
 }
@@ -127,7 +127,7 @@ StabilityOutcome rest(const Subject& subject) {
 StabilityOutcome slide(const Subject& subject) {
   constexpr double speed = 3.0;  // m/s
   constexpr double time = speed / (block_friction * earth_gravity);
-  constexpr double way = 0.5 * speed * time;
+  constexpr double distance = 0.5 * speed * time;
   // The block touches the floor without penetration: initially it loses contact at times.
   constexpr double start_share = 3e-3;
   ContactScene scene;
@@ -141,7 +141,7 @@ StabilityOutcome slide(const Subject& subject) {
   while (accepted && !simulation.reached(end)) accepted = simulation.step(end) == StepStatus::accepted;
   StabilityOutcome outcome = outcome_of(simulation);
   outcome.ended = accepted;
-  outcome.error = std::abs((centroid(simulation, 1).x() - start) / way - 1.0);
+  outcome.error = std::abs((centroid(simulation, 1).x() - start) / distance - 1.0);
   // In shorter steps the block loses and regains contact from one step to the next, and the impulses of multipliers
   // then have no friction (solver/notes/augmented_contact.md): a run warns of it.
   constexpr double least_with_multipliers = 1e-3;  // s

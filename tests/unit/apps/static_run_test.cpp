@@ -115,7 +115,7 @@ TEST_F(StaticRun, ComesBeforeMotion) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   const std::vector<double> ways = column("out/history.csv", "top.uz");
   EXPECT_LT(ways.front(), -1e-7) << "pressed by its weight at the start";
-  for (const double way : ways) EXPECT_NEAR(way, ways.front(), 1e-10);
+  for (const double displacement : ways) EXPECT_NEAR(displacement, ways.front(), 1e-10);
   ASSERT_EQ(run("half", {"--set", "analysis.end_time=0.1"}), exit_status::done) << faults_;
   ASSERT_EQ(run("half", {"--resume"}), exit_status::done) << faults_;
   EXPECT_EQ(text("half/history.csv"), text("out/history.csv"));

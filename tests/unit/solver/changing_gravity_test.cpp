@@ -39,10 +39,10 @@ TEST(ChangingGravity, FreeFallOfAverageAccelerationTakesTheMeanOfAStep) {
   ASSERT_TRUE(run_until(simulation, 1.0));
   // v = g0 t + k t^2 / 2 at the steps; their trapezoids add k dt^2 t / 12 to x.
   const Vector3 velocity = start + 0.5 * rate;
-  const Vector3 way = 0.5 * start + (1.0 / 6.0 + 0.01 / 12.0) * rate;
+  const Vector3 travel = 0.5 * start + (1.0 / 6.0 + 0.01 / 12.0) * rate;
   const Vector3 corner(100, 0, 0);
   EXPECT_NEAR((simulation.momentum() - mass * velocity).norm(), 0.0, 1e-8);
-  EXPECT_NEAR((place_of(simulation, 0, corner) - corner - way).norm(), 0.0, 1e-11);
+  EXPECT_NEAR((place_of(simulation, 0, corner) - corner - travel).norm(), 0.0, 1e-11);
   ASSERT_TRUE(run_until(simulation, 3.0));
   EXPECT_NEAR((simulation.momentum() - mass * (velocity + 2.0 * end)).norm(), 0.0, 1e-8);
 }
@@ -52,10 +52,10 @@ TEST(ChangingGravity, FreeFallOfDdaTakesTheEndOfAStep) {
   ASSERT_TRUE(run_until(simulation, 1.0));
   // v_n = g0 n dt + k dt^2 n (n + 1) / 2 and x = dt (v_0/2 + v_1 + ... + v_N/2), N = 10, dt = 0.1.
   const Vector3 velocity = start + 0.55 * rate;
-  const Vector3 way = 0.55 * start + 0.22 * rate - 0.05 * velocity;
+  const Vector3 travel = 0.55 * start + 0.22 * rate - 0.05 * velocity;
   const Vector3 corner(100, 0, 0);
   EXPECT_NEAR((simulation.momentum() - mass * velocity).norm(), 0.0, 1e-8);
-  EXPECT_NEAR((place_of(simulation, 0, corner) - corner - way).norm(), 0.0, 1e-11);
+  EXPECT_NEAR((place_of(simulation, 0, corner) - corner - travel).norm(), 0.0, 1e-11);
 }
 
 TEST(ChangingGravity, ItsWorkIsAppliedAndHasNoPotential) {

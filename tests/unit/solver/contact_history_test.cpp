@@ -128,9 +128,9 @@ TEST(ContactHistory, ABlockOnAnInclineDoesNotCreep) {
     Simulation simulation = block_on_incline(order, false);
     ASSERT_TRUE(run_until(simulation, 2.0));
     const Vector3 point(0.1, 0.1, 0.3);
-    const Vector3 settled = place_of(simulation, 1, point);
+    const Vector3 at_rest = place_of(simulation, 1, point);
     ASSERT_TRUE(run_until(simulation, 10.0));
-    EXPECT_LT((place_of(simulation, 1, point) - settled).norm(), 1e-9) << order;
+    EXPECT_LT((place_of(simulation, 1, point) - at_rest).norm(), 1e-9) << order;
     EXPECT_TRUE(simulation.rejections().empty());
   }
 }
@@ -160,9 +160,9 @@ TEST(ContactHistory, MultipliersHoldABlockOnAnIncline) {
   Simulation simulation = block_on_incline(1, true);
   const Vector3 point(0.1, 0.1, 0.3);
   ASSERT_TRUE(run_until(simulation, 1.0));
-  const Vector3 settled = place_of(simulation, 1, point);
+  const Vector3 at_rest = place_of(simulation, 1, point);
   ASSERT_TRUE(run_until(simulation, 3.0));
-  EXPECT_LT((place_of(simulation, 1, point) - settled).norm(), 1e-6);
+  EXPECT_LT((place_of(simulation, 1, point) - at_rest).norm(), 1e-6);
 }
 
 TEST(ContactHistory, ForcesAreTheChangesOfMomentum) {

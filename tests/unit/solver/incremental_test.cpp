@@ -86,8 +86,8 @@ TEST(Incremental, ACubeSlidesDownAnIncline) {
     Simulation simulation(std::move(blocks), {{}, {}}, same_law({1e10, 5e9, friction, 0, 0, area}), settings);
     const Vector3 first = simulation.blocks()[1].basis().centroid();
     ASSERT_TRUE(run_until(simulation, 1.0));
-    const Vector3 way = simulation.blocks()[1].basis().centroid() - first;
-    EXPECT_NEAR(way.norm(), 0.9064074, 0.005 * 0.9064074) << area;
+    const Vector3 travel = simulation.blocks()[1].basis().centroid() - first;
+    EXPECT_NEAR(travel.norm(), 0.9064074, 0.005 * 0.9064074) << area;
     EXPECT_GT(simulation.report().sliding, 0);
   }
 }

@@ -54,19 +54,19 @@ class SlidingUp : public testing::TestWithParam<Way> {};
 // m x'' = -N tan(phi), m z'' = N - m g, z = x tan(psi):  N = m g / (1 + tan(phi) tan(psi)); it comes to rest after
 // s = v^2 m / (2 N tan(phi)), has risen by s tan(psi), and sliding has taken N (tan(phi) - tan(psi)) s.
 TEST_P(SlidingUp, UnderConstantLoadRisesBySlipTimesTangent) {
-  const Way& way = GetParam();
+  const Way& travel = GetParam();
   constexpr double friction = 0.5, dilation = 0.15, speed = 1.5, mass = 250.0;
   SimulationSettings settings;
   settings.time_step = 1e-3;
-  settings.integrator = way.integrator;
-  settings.area_springs = way.area;
-  settings.augmented = way.augmented;
+  settings.integrator = travel.integrator;
+  settings.area_springs = travel.area;
+  settings.augmented = travel.augmented;
   settings.contact_distance = 1e-3;  // far less than it rises
   settings.rest.sleeps = false;
-  JointLaw law = dilating(friction, dilation, way.area);
+  JointLaw law = dilating(friction, dilation, travel.area);
   // It starts without pressure. Undamped, it bounces without end, and slips in flight.
-  if (way.integrator == Integrator::average_acceleration && !way.augmented) law.damping = 0.3;
-  Simulation simulation = sliding_slab(law, settings, way.order, speed, 0.3);
+  if (travel.integrator == Integrator::average_acceleration && !travel.augmented) law.damping = 0.3;
+  Simulation simulation = sliding_slab(law, settings, travel.order, speed, 0.3);
   const Vector3 start = place_of(simulation, 1, {0, 0, 0});
   ASSERT_TRUE(run_until(simulation, 0.5));
   const Vector3 moved = place_of(simulation, 1, {0, 0, 0}) - start;
@@ -75,11 +75,11 @@ TEST_P(SlidingUp, UnderConstantLoadRisesBySlipTimesTangent) {
   EXPECT_NEAR(moved.head<2>().norm(), slip, 0.01 * slip);
   EXPECT_NEAR(moved.z() / moved.head<2>().norm(), dilation, 1e-3 * dilation);
   const Ledger& ledger = simulation.ledger();
-  const double taken = normal * (friction - dilation) * slip;
-  EXPECT_NEAR(ledger.friction, taken, 0.02 * taken);
+  const double dissipated = normal * (friction - dilation) * slip;
+  EXPECT_NEAR(ledger.friction, dissipated, 0.02 * dissipated);
   EXPECT_LT(simulation.largest_step_residual(), 1e-9 * simulation.largest_energy());
   EXPECT_LT(ledger.redetection_gained, 1e-8 * simulation.largest_energy());
-  EXPECT_LT(std::abs(ledger.numerical) + ledger.damping, 0.03 * taken);
+  EXPECT_LT(std::abs(ledger.numerical) + ledger.damping, 0.03 * dissipated);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SlidingUp,

@@ -74,16 +74,16 @@ TEST(QuietBoundary, TheReactionOfRestStaysInMotion) {
     Simulation simulation = stack(settings, {{}, {}});
     ASSERT_EQ(simulation.start_from_statics([] { return true; }), StaticStatus::equilibrium);
     EXPECT_TRUE(simulation.blocks()[0].holds_quiet_faces());
-    const Vector3 settled = place_of(simulation, 1, {1, 1, 6});
-    EXPECT_LT(settled.z(), 6.0);
+    const Vector3 at_rest = place_of(simulation, 1, {1, 1, 6});
+    EXPECT_LT(at_rest.z(), 6.0);
     ASSERT_TRUE(run_until(simulation, 0.1));
     const BlockModel& base = simulation.blocks()[0];
     const Vector3 reaction = std::sqrt(base.basis().volume()) * base.reaction().row(0).transpose();
     // rho g (24 + 12) m^3
     EXPECT_NEAR((reaction - Vector3(0, 0, 7.2e5)).norm(), 0.0, 1e-3);
     // The acceleration that generalized-alpha carries does not know the force of the contact.
-    const double still = (integrator == Integrator::generalized_alpha ? 2e-5 : 1e-9) * (6.0 - settled.z());
-    EXPECT_NEAR((place_of(simulation, 1, {1, 1, 6}) - settled).norm(), 0.0, still);
+    const double still = (integrator == Integrator::generalized_alpha ? 2e-5 : 1e-9) * (6.0 - at_rest.z());
+    EXPECT_NEAR((place_of(simulation, 1, {1, 1, 6}) - at_rest).norm(), 0.0, still);
     EXPECT_NEAR(place_of(simulation, 0, {1, 1, 0}).z(), 0.0, still);
     // Statics hold the base again.
     EXPECT_EQ(run_static(simulation, 0.1), StaticStatus::equilibrium);
@@ -145,13 +145,13 @@ TEST(QuietBoundary, TheNextStageGoesOnFromTheReaction) {
   ASSERT_EQ(run_static(first, 1.0), StaticStatus::equilibrium);
   Simulation second = stack(settings, {{}, {}});
   second.start_stage(first.snapshot(), {false, false});
-  const Vector3 settled = place_of(second, 1, {1, 1, 6});
+  const Vector3 at_rest = place_of(second, 1, {1, 1, 6});
   ASSERT_TRUE(run_until(second, 0.02));
   Simulation third = stack(settings, {{}, {}});
   third.start_stage(second.snapshot(), {false, false});
   EXPECT_EQ(third.blocks()[0].reaction(), second.blocks()[0].reaction());
   ASSERT_TRUE(run_until(third, 0.05));
-  EXPECT_NEAR((place_of(third, 1, {1, 1, 6}) - settled).norm(), 0.0, 1e-6 * (6.0 - settled.z()));
+  EXPECT_NEAR((place_of(third, 1, {1, 1, 6}) - at_rest).norm(), 0.0, 1e-6 * (6.0 - at_rest.z()));
 }
 
 TEST(QuietBoundary, ASleepingBlockIsWokenByItsWave) {

@@ -230,8 +230,8 @@ TEST_P(OnEdgesWithoutFriction, RidgesDoNotHoldWhatLiesOnASlope) {
   scene.slope = 3.0 * std::numbers::pi / 180.0;
   Simulation simulation = plate_on_edges(scene);
   ASSERT_TRUE(run_until(simulation, 0.5));
-  const double way = 0.5 * 9.81 * std::sin(scene.slope) * 0.25;
-  EXPECT_NEAR(plate_in(simulation).x(), way, 0.01 * way);
+  const double travel = 0.5 * 9.81 * std::sin(scene.slope) * 0.25;
+  EXPECT_NEAR(plate_in(simulation).x(), travel, 0.01 * travel);
 }
 
 INSTANTIATE_TEST_SUITE_P(OrdersAndSprings, OnEdgesWithoutFriction,

@@ -73,7 +73,7 @@ Json state_of(const Workspace& workspace, ServedRun& run) {
 /// Waits for the end of a run.
 class RunCall final : public ToolCall {
  public:
-  enum class IfCancelled { goes_on, ends };
+  enum class IfCancelled { may_continue, ends };
 
   RunCall(Workspace& workspace, ServedRun& run, double seconds, IfCancelled if_cancelled)
       : workspace_(workspace),
@@ -93,7 +93,7 @@ class RunCall final : public ToolCall {
   }
 
   void cancel() override {
-    if (if_cancelled_ == IfCancelled::goes_on || std::exchange(run_.asked_to_end, true)) return;
+    if (if_cancelled_ == IfCancelled::may_continue || std::exchange(run_.asked_to_end, true)) return;
     run_.process->ask_to_end();
   }
 
@@ -127,7 +127,8 @@ ToolStart start_a_run(Workspace& workspace, const Json& arguments) {
 ToolStart tell_a_run(Workspace& workspace, const Json& arguments) {
   if (arguments.contains("run"))
     return std::make_unique<RunCall>(workspace, workspace.run_of(arguments["run"].get<std::string>()),
-                                     arguments.value("wait_seconds", 0.0), RunCall::IfCancelled::goes_on);
+                                     arguments.value("wait_seconds", 0.0),
+                                     RunCall::IfCancelled::may_continue);
   Json runs = Json::array();
   for (const std::unique_ptr<ServedRun>& run : workspace.runs()) runs.push_back(state_of(workspace, *run));
   for (Json& run : runs) run.erase("messages");
@@ -139,7 +140,7 @@ ToolStart stop_a_run(Workspace& workspace, const Json& arguments) {
   ServedRun& run = workspace.run_of(arguments["run"].get<std::string>());
   if (!run.process->status() && !std::exchange(run.asked_to_end, true)) run.process->ask_to_end();
   return std::make_unique<RunCall>(workspace, run, arguments.value("wait_seconds", usual_wait),
-                                   RunCall::IfCancelled::goes_on);
+                                   RunCall::IfCancelled::may_continue);
 }
 
 }  // namespace

@@ -239,9 +239,9 @@ class GridReader {
 
   /// Prevents a file from claiming the same bytes for many arrays.
   void take_bytes(std::size_t start, std::size_t end) {
-    const auto [place, is_new] = taken_.try_emplace(start, end);
-    const bool overlaps = !is_new || (std::next(place) != taken_.end() && std::next(place)->first < end) ||
-                          (place != taken_.begin() && std::prev(place)->second > start);
+    const auto [place, is_new] = read_.try_emplace(start, end);
+    const bool overlaps = !is_new || (std::next(place) != read_.end() && std::next(place)->first < end) ||
+                          (place != read_.begin() && std::prev(place)->second > start);
     if (overlaps) fail("arrays overlap");
   }
 
@@ -303,7 +303,7 @@ class GridReader {
 
   std::string_view appended_;
   Allowance allowance_;
-  std::map<std::size_t, std::size_t> taken_;  ///< start and end of the arrays read, in the appended data
+  std::map<std::size_t, std::size_t> read_;  ///< start and end of the arrays read, in the appended data
   Section section_ = Section::none;
   bool in_field_data_ = false;
   bool in_names_ = false;       ///< of blocks, in the field data

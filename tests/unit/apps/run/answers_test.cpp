@@ -65,8 +65,8 @@ TEST_F(Answers, SlipIsTheWayAlongTheJoint) {
       "end_time = 0.4\ntime_step = 1e-3\ngravity = [5, 0, -8.660254037844386]\n", "friction_angle = 10\n", "",
       pair_measure + "[[measure]]\nname = \"foot\"\nblock = \"cube\"\npoint = [0.5, 0.5, 0]\n"));
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  const double way = 0.5 * 0.16 * (5.0 - 8.660254037844386 * std::tan(std::numbers::pi / 18.0));
-  EXPECT_NEAR(last("joint.slip"), way, 0.01 * way);
+  const double displacement = 0.5 * 0.16 * (5.0 - 8.660254037844386 * std::tan(std::numbers::pi / 18.0));
+  EXPECT_NEAR(last("joint.slip"), displacement, 0.01 * displacement);
   EXPECT_NEAR(last("joint.slip"), last("foot.ux"), 1e-5);
 }
 

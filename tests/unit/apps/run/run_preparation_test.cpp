@@ -24,7 +24,7 @@ RunStages stages_of(const std::string& text) {
 
 /// Ends a run when it is first asked.
 struct Refusal final : RunObserver {
-  [[nodiscard]] bool goes_on() override { return false; }
+  [[nodiscard]] bool may_continue() override { return false; }
 };
 
 TEST(RunPreparation, WithoutAnythingToPrepareTheRunBeginsAtOnce) {

@@ -30,7 +30,7 @@ class Writer final : public RunObserver {
  public:
   Writer(std::string name, std::vector<std::string>& events, bool fails = false)
       : name_(std::move(name)), events_(events), fails_(fails) {}
-  [[nodiscard]] bool goes_on() override { return !fails_; }
+  [[nodiscard]] bool may_continue() override { return !fails_; }
   void run_begins(const Run& /*run*/) override { write("begins"); }
   void step_taken(const Run& /*run*/) override { write("steps"); }
   void run_ends(const Run& /*run*/) override { write("ends"); }
@@ -54,7 +54,7 @@ TEST(RunRecord, ObserversAreToldInTheirOrderAndEndInReverse) {
   record.add(std::make_shared<Writer>("a", events));
   record.add(std::make_shared<Writer>("b", events));
   RunEnd end;
-  EXPECT_TRUE(record.goes_on());
+  EXPECT_TRUE(record.may_continue());
   record.begin(run);
   EXPECT_TRUE(record.tell(&RunObserver::step_taken, run, end));
   record.tell_end(run, end);
@@ -70,7 +70,7 @@ TEST(RunRecord, AnObserverThatCannotWriteFailsTheRun) {
   record.add(std::make_shared<Writer>("a", events));
   record.add(std::make_shared<Writer>("b", events, true));
   RunEnd end;
-  EXPECT_FALSE(record.goes_on());
+  EXPECT_FALSE(record.may_continue());
   EXPECT_THROW(record.begin(run), std::runtime_error);
   EXPECT_FALSE(record.tell(&RunObserver::step_taken, run, end));
   EXPECT_EQ(end.status, RunStatus::failed);

@@ -204,7 +204,7 @@ TEST(Run, ASearchIsStepped) {
 /// Counts the events of a run and ends it after some questions.
 struct Counter : RunObserver {
   explicit Counter(int most = 1 << 30) : left(most) {}
-  bool goes_on() override { return left-- > 0; }
+  bool may_continue() override { return left-- > 0; }
   void run_begins(const Run&) override { ++begun; }
   void stage_begins(const Run&) override { ++stages; }
   void step_taken(const Run&) override { ++steps; }

@@ -265,7 +265,7 @@ bond_strength = 2e5
 class EndsAt final : public RunObserver {
  public:
   explicit EndsAt(int n) : left_(n) {}
-  [[nodiscard]] bool goes_on() override { return --left_ > 0; }
+  [[nodiscard]] bool may_continue() override { return --left_ > 0; }
 
  private:
   int left_;

@@ -250,8 +250,8 @@ friction_angle = 10
   const std::vector<double> time = column("out/history.csv", "time");
   EXPECT_DOUBLE_EQ(time.back(), 0.5);
   const double acceleration = 5.0 - 8.660254037844386 * std::tan(10.0 * std::acos(-1.0) / 180.0);
-  const double way = 0.5 * acceleration * 0.25;
-  EXPECT_NEAR(column("out/history.csv", "corner.ux").back(), way, 0.005 * way);
+  const double displacement = 0.5 * acceleration * 0.25;
+  EXPECT_NEAR(column("out/history.csv", "corner.ux").back(), displacement, 0.005 * displacement);
   EXPECT_NEAR(column("out/history.csv", "corner.vx").back(), 0.5 * acceleration, 0.002 * acceleration);
 }
 

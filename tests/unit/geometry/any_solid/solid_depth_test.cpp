@@ -35,7 +35,7 @@ TEST(SolidDepth, APointInABoxIsAsDeepAsItsNearestFace) {
   const auto depth = cube().of_point({3, 9, 5});
   ASSERT_TRUE(depth);
   EXPECT_DOUBLE_EQ(depth->depth, 1.0);
-  EXPECT_EQ(depth->way_out, Vector3(0, 1, 0));
+  EXPECT_EQ(depth->outward, Vector3(0, 1, 0));
 }
 
 TEST(SolidDepth, PointsOutsideAndOnTheSurfaceHaveNone) {
@@ -52,7 +52,7 @@ TEST(SolidDepth, BelowAReflexEdgeTheEdgeIsNearest) {
   const auto depth = ell().of_point({0.9, 0.9, 0.5});
   ASSERT_TRUE(depth);
   EXPECT_NEAR(depth->depth, std::sqrt(0.02), 1e-15);
-  EXPECT_NEAR((depth->way_out - Vector3(1, 1, 0).normalized()).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((depth->outward - Vector3(1, 1, 0).normalized()).norm(), 0.0, 1e-14);
 }
 
 TEST(SolidDepth, TheWayOutOfWhatRoundingPutsOnAFaceIsItsNormal) {
@@ -66,7 +66,7 @@ TEST(SolidDepth, TheWayOutOfWhatRoundingPutsOnAFaceIsItsNormal) {
   const auto depth = finder.of_point(x);
   ASSERT_TRUE(depth);
   EXPECT_NEAR(depth->depth, 0x1p-54 / std::sqrt(10.0), 1e-30);
-  EXPECT_NEAR((depth->way_out - Vector3(-1, 3, 0).normalized()).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((depth->outward - Vector3(-1, 3, 0).normalized()).norm(), 0.0, 1e-15);
 }
 
 TEST(SolidDepth, ASegmentThroughAnEdgeOfABoxIsDeepestWhereBothFacesAreAsNear) {

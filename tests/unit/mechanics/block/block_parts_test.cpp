@@ -11,9 +11,9 @@ namespace {
 
 const Material rock{2000.0, 3e9, 0.25};
 
-Polyhedron moved(const Polyhedron& solid, const Vector3& way) {
+Polyhedron moved(const Polyhedron& solid, const Vector3& displacement) {
   std::vector<Vector3> points;
-  for (const Vector3& point : solid.mesh().points) points.emplace_back(point + way);
+  for (const Vector3& point : solid.mesh().points) points.emplace_back(point + displacement);
   return solid.with_points(std::move(points));
 }
 
@@ -23,14 +23,14 @@ BlockDefinition block(const Polyhedron& solid, int order = 3) {
 
 TEST(BlockParts, BlocksThatDifferByATranslationShare) {
   const Polyhedron solid = test_support::l_shaped_prism();
-  const Vector3 way(3, -5, 0.25);  // exact in binary
+  const Vector3 displacement(3, -5, 0.25);  // exact in binary
   BlockPartsLibrary library;
   const BlockModel first(block(solid), library);
-  const BlockModel second(block(moved(solid, way)), library);
+  const BlockModel second(block(moved(solid, displacement)), library);
   EXPECT_EQ(library.size(), 1U);
   EXPECT_EQ(&first.space(), &second.space());
   EXPECT_EQ(&first.basis().derivative(0), &second.basis().derivative(0));
-  const BlockModel alone(block(moved(solid, way)));
+  const BlockModel alone(block(moved(solid, displacement)));
   EXPECT_EQ(second.basis().centroid(), alone.basis().centroid());
   EXPECT_EQ(second.basis().identity_map(), alone.basis().identity_map());
   for (const Vector3& point : alone.solid().mesh().points)
@@ -92,9 +92,9 @@ TEST(BlockParts, RoundedTranslationsShareTheirShape) {
 
 TEST(BlockParts, HigherOrdersThatAreSharedHaveTheBitsOfSingleOnes) {
   const Polyhedron solid = test_support::l_shaped_prism();
-  const Vector3 way(3, -5, 0.25);  // exact in binary
+  const Vector3 displacement(3, -5, 0.25);  // exact in binary
   BlockPartsLibrary library;
-  const BlockModel low(block(moved(solid, way), 1));
+  const BlockModel low(block(moved(solid, displacement), 1));
   (void)BlockModel(block(solid, 1)).with_order(3, library);
   const BlockModel shared = low.with_order(3, library), alone = low.with_order(3);
   EXPECT_EQ(library.size(), 1U);

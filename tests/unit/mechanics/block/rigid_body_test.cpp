@@ -17,9 +17,9 @@ const BlockModel& needle() {
   return block;
 }
 
-Eigen::MatrixX3d placed(const Eigen::Matrix3d& turn, const Vector3& way) {
+Eigen::MatrixX3d placed(const Eigen::Matrix3d& turn, const Vector3& displacement) {
   Eigen::MatrixX3d position = needle().basis().identity_map() * turn.transpose();
-  position.row(0) = needle().basis().identity_map().row(0) + way.transpose();
+  position.row(0) = needle().basis().identity_map().row(0) + displacement.transpose();
   return position;
 }
 

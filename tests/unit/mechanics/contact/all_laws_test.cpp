@@ -153,10 +153,10 @@ TEST_P(AllLaws, AStepGainsNoEnergy) {
   RandomHistory history(point_of(GetParam()), 3);
   for (int k = 0; k < 1000; ++k) {
     const AveragedStep step = history.next();
-    const double taken = -step.mean.force.dot(history.to - history.from);  // by the joint
+    const double absorbed = -step.mean.force.dot(history.to - history.from);  // by the joint
     const double gained = step.end.energy() - history.start.energy();
-    const double scale = std::abs(taken) + history.start.energy() + step.end.energy();
-    EXPECT_GE(taken - gained, -1e-12 * scale)
+    const double scale = std::abs(absorbed) + history.start.energy() + step.end.energy();
+    EXPECT_GE(absorbed - gained, -1e-12 * scale)
         << "from " << history.from.transpose() << " to " << history.to.transpose();
     history.accept(step);
   }

@@ -174,8 +174,8 @@ TEST(ContactKinematics, TheGradientOfAConfigurationIsTheDerivativeOfItsPlaces) {
       EXPECT_EQ(placed.place(at), placed.at(at).place) << order;
       constexpr double h = 1e-5;
       for (int axis = 0; axis < 3; ++axis) {
-        const Vector3 way = h * Vector3::Unit(axis);
-        const Vector3 expected = (placed.place(at + way) - placed.place(at - way)) / (2.0 * h);
+        const Vector3 shift = h * Vector3::Unit(axis);
+        const Vector3 expected = (placed.place(at + shift) - placed.place(at - shift)) / (2.0 * h);
         EXPECT_LT((found.col(axis) - expected).norm(), 1e-7 * found.norm()) << order;
       }
     }

@@ -91,7 +91,7 @@ TEST(Dashpots, MeanForcesLoseWhatTheyDamp) {
   int locked = 0, slid = 0, let_go = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const double g0 = any(1e-5), g1 = any(1e-5);
-    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), way(any(3e-5), any(3e-5));
+    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), shift(any(3e-5), any(3e-5));
     PointLaw plain = damped(0.0, {0, 0}, std::abs(any(3.0)));
     Dashpots dashpots = plain.dashpots;
     dashpots.normal = std::abs(any(1e9));
@@ -101,8 +101,8 @@ TEST(Dashpots, MeanForcesLoseWhatTheyDamp) {
     PointLaw point = plain;
     point.dashpots = {dashpots.normal, dashpots.shear, g0, e0};
     const auto [end, mean] =
-        averaged_step(point, start, {g0, e0.x(), e0.y()}, {g1, e0.x() + way.x(), e0.y() + way.y()});
-    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(way);
+        averaged_step(point, start, {g0, e0.x(), e0.y()}, {g1, e0.x() + shift.x(), e0.y() + shift.y()});
+    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(shift);
     const double scale = start.energy() + end.energy() + std::abs(work) + end.damped;
     const double lost = start.energy() - end.energy() - work - end.damped;
     EXPECT_GE(mean.force[0], 0.0) << trial;
@@ -113,7 +113,7 @@ TEST(Dashpots, MeanForcesLoseWhatTheyDamp) {
       EXPECT_LE(lost, 1e-12 * scale) << trial;
       ++locked;
     } else if (end.state == ContactState::sliding) {
-      const Eigen::Vector2d plastic = e0 + way - elastic_slip(point, end, e0 + way);
+      const Eigen::Vector2d plastic = e0 + shift - elastic_slip(point, end, e0 + shift);
       EXPECT_NEAR(lost, -mean.force.tail<2>().dot(plastic), 1e-12 * scale) << trial;
       ++slid;
     }

@@ -117,19 +117,19 @@ TEST(Dilation, MeanForcesTakeWhatSlidingTakesLessWhatItRaises) {
     const double friction = std::abs(any(1.5));
     const PointLaw point = point_law(joint(friction, friction * std::abs(any(1.0))), 0.1, false);
     const double g0 = -std::abs(any(1e-5)), g1 = any(1e-5);
-    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), way(any(3e-5), any(3e-5));
+    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), shift(any(3e-5), any(3e-5));
     PointLaw still = point;
     still.dilation = {};
     const PointResponse start = point_response(still, g0, trial_slip);
     const Eigen::Vector2d e0 = elastic_slip(still, start, trial_slip);
     const auto [end, mean] =
-        averaged_step(point, start, {g0, e0.x(), e0.y()}, {g1, e0.x() + way.x(), e0.y() + way.y()});
-    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(way);
+        averaged_step(point, start, {g0, e0.x(), e0.y()}, {g1, e0.x() + shift.x(), e0.y() + shift.y()});
+    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(shift);
     const double lost = start.energy() - end.energy() - work;
     const double scale = start.energy() + end.energy() + std::abs(work);
     EXPECT_GE(lost, -1e-12 * scale) << trial;
     if (end.state != ContactState::sliding) continue;
-    const double slip = (e0 + way - elastic_slip(point, end, e0 + way)).norm();
+    const double slip = (e0 + shift - elastic_slip(point, end, e0 + shift)).norm();
     EXPECT_NEAR(end.dilation, point.dilation.tangent * slip, 1e-12 * slip) << trial;
     EXPECT_NEAR(lost, (mean.force.tail<2>().norm() - point.dilation.tangent * mean.force[0]) * slip,
                 1e-9 * scale);

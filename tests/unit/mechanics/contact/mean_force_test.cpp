@@ -76,13 +76,13 @@ TEST(JointLaw, MeanForcesGiveNoWorkOfTheirOwn) {
     PointLaw plain = point;
     plain.tension = 0.0;
     const double g0 = any(1e-5), g1 = any(1e-5);
-    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), way(any(3e-5), any(3e-5));
+    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), shift(any(3e-5), any(3e-5));
     const PointResponse start = point_response(plain, g0, trial_slip);
     const Eigen::Vector2d e0 = elastic_slip(plain, start, trial_slip);
     const Eigen::Vector3d start_place(g0, e0.x(), e0.y());
-    const Eigen::Vector3d end_place(g1, e0.x() + way.x(), e0.y() + way.y());
+    const Eigen::Vector3d end_place(g1, e0.x() + shift.x(), e0.y() + shift.y());
     const auto [end, mean] = averaged_step(plain, start, start_place, end_place);
-    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(way);
+    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(shift);
     const double lost = start.energy() - end.energy() - work;
     const double scale = start.energy() + end.energy() + std::abs(work);
     EXPECT_GE(lost, -1e-12 * scale) << trial;
@@ -106,31 +106,32 @@ TEST(JointLaw, MeanFrictionIsThatOfTheMeanNormalForce) {
   joint.cohesion = joint.tensile_strength = 0.0;
   const PointLaw point = point_law(joint, 0.1, false);
   const double depth = 1e-5, normal = 0.5 * point.normal_stiffness * depth;
-  const Eigen::Vector2d way(3e-4, 4e-4);
+  const Eigen::Vector2d shift(3e-4, 4e-4);
   const PointResponse free = point_response(point, 0.0, Eigen::Vector2d::Zero());
-  const AveragedStep in = averaged_step(point, free, {0, 0, 0}, {-depth, way.x(), way.y()});
+  const AveragedStep in = averaged_step(point, free, {0, 0, 0}, {-depth, shift.x(), shift.y()});
   EXPECT_NEAR(in.mean.force[0], normal, 1e-9 * normal);
-  EXPECT_NEAR((in.mean.force.tail<2>() + 0.5 * normal * way.normalized()).norm(), 0.0, 1e-9 * normal);
-  const PointResponse pressed = point_response(point, -depth, elastic_slip(point, in.end, way));
-  const Eigen::Vector2d slip = elastic_slip(point, in.end, way);
+  EXPECT_NEAR((in.mean.force.tail<2>() + 0.5 * normal * shift.normalized()).norm(), 0.0, 1e-9 * normal);
+  const PointResponse pressed = point_response(point, -depth, elastic_slip(point, in.end, shift));
+  const Eigen::Vector2d slip = elastic_slip(point, in.end, shift);
   const AveragedStep out = averaged_step(point, pressed, {-depth, slip.x(), slip.y()},
-                                         {0.0, slip.x() + way.x(), slip.y() + way.y()});
+                                         {0.0, slip.x() + shift.x(), slip.y() + shift.y()});
   EXPECT_NEAR(out.mean.force[0], normal, 1e-9 * normal);
-  EXPECT_NEAR((out.mean.force.tail<2>() + 0.5 * normal * way.normalized()).norm(), 0.0, 1e-9 * normal);
+  EXPECT_NEAR((out.mean.force.tail<2>() + 0.5 * normal * shift.normalized()).norm(), 0.0, 1e-9 * normal);
 }
 
 TEST(JointLaw, MeanCohesionIsThatOfTheTimeInContact) {
   JointLaw joint = law;
   joint.friction = joint.tensile_strength = 0.0;
   const PointLaw point = point_law(joint, 0.1, true);
-  const Eigen::Vector2d way(3e-2, 4e-2);  // far beyond the limit
+  const Eigen::Vector2d shift(3e-2, 4e-2);  // far beyond the limit
   const auto mean = [&](double g0, double g1) {
-    return averaged_step(point, point_response(point, g0, {0, 0}), {g0, 0, 0}, {g1, way.x(), way.y()}).mean;
+    return averaged_step(point, point_response(point, g0, {0, 0}), {g0, 0, 0}, {g1, shift.x(), shift.y()})
+        .mean;
   };
   // From 1 deep to 3 above: a quarter of the time. From 3 above to 1 deep likewise.
   for (const auto& [g0, g1, share] :
        {std::tuple{-1e-5, 3e-5, 0.25}, {3e-5, -1e-5, 0.25}, {-1e-5, -3e-5, 1.0}, {1e-5, 3e-5, 0.0}}) {
-    EXPECT_NEAR((mean(g0, g1).force.tail<2>() + share * point.cohesion * way.normalized()).norm(), 0.0,
+    EXPECT_NEAR((mean(g0, g1).force.tail<2>() + share * point.cohesion * shift.normalized()).norm(), 0.0,
                 1e-12 * point.cohesion);
     EXPECT_NEAR(mean(g0, g1).limit, share * point.cohesion, 1e-12 * point.cohesion);
   }

@@ -106,13 +106,13 @@ struct PulledPoint {
   double damage = 0.0;
 };
 
-PulledPoint pulled(const JointLaw& law, const Eigen::Vector3d& way, int steps) {
+PulledPoint pulled(const JointLaw& law, const Eigen::Vector3d& shift, int steps) {
   PulledPoint result;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   for (int k = 0; k < steps; ++k) {
     const PointLaw point = point_law(law, area, result.damage < 1.0, result.damage);
     const PointResponse start = point_response(point, place[0], place.tail<2>());
-    const Eigen::Vector3d next = place + way / steps;
+    const Eigen::Vector3d next = place + shift / steps;
     const AveragedStep step = averaged_step(point, start, place, next);
     result.work -= step.mean.force.dot(next - place);
     result.dissipated += step.end.fractured;

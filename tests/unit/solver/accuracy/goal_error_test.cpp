@@ -27,8 +27,8 @@ struct Marked {
 
 GoalValues displacement_of(const Marked& marked) {
   return [marked](const Simulation& simulation) {
-    const Vector3 way = place_of(simulation, marked.block, marked.point) - marked.point;
-    return std::vector<Goal>{{"way", {way.x(), way.y(), way.z()}, 1e-12}};
+    const Vector3 travel = place_of(simulation, marked.block, marked.point) - marked.point;
+    return std::vector<Goal>{{"way", {travel.x(), travel.y(), travel.z()}, 1e-12}};
   };
 }
 

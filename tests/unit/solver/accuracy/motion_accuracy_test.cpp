@@ -138,8 +138,8 @@ Simulation falling(int order, const Vector3& spin) {
 // Orders are chosen by what precedes an impact: in free fall each moves alike.
 TEST(MotionAccuracy, ThePilotOfOrdersEndsAtTheFirstImpact) {
   const GoalValues middle = [](const Simulation& simulation) {
-    const Vector3 way = place_of(simulation, 1, {0.5, 0.5, 0.6}) - Vector3(0.5, 0.5, 0.6);
-    return std::vector<Goal>{{"middle", {way.x(), way.y(), way.z()}}};
+    const Vector3 travel = place_of(simulation, 1, {0.5, 0.5, 0.6}) - Vector3(0.5, 0.5, 0.6);
+    return std::vector<Goal>{{"middle", {travel.x(), travel.y(), travel.z()}}};
   };
   std::vector<AccuracyRound> rounds;
   for (const int order : {1, 2}) {

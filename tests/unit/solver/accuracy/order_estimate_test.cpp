@@ -64,7 +64,7 @@ TEST(OrderEstimate, TellsWhatTheHighestOrderWouldLeave) {
 
 TEST(OrderEstimate, LacksOfChangesSayNothingAboutTheNextOrders) {
   std::vector<AccuracyRound> rounds = rounds_to(2, cubic);
-  rounds.back().lacks = {1e-4};
+  rounds.back().missing_energy = {1e-4};
   EXPECT_NEAR(order_error_of(rounds, 0, {"goal", {1.0}}), std::sqrt(1e-4 / 1.0001), 1e-12);
   rounds.back().of_changes = true;
   EXPECT_TRUE(std::isinf(order_error_of(rounds, 0, {"goal", {1.0}})));
@@ -81,7 +81,7 @@ Simulation standing(int order) {
 AccuracyRound round_of(const Simulation& simulation) {
   AccuracyRound round;
   round.orders = {0, simulation.blocks()[1].order()};
-  round.lacks = {0.0, -1.0};
+  round.missing_energy = {0.0, -1.0};
   for (std::size_t k = 0; k < 2; ++k) round.positions.push_back(simulation.states()[k].position);
   round.energies = {0.0, simulation.blocks()[1].elastic(simulation.states()[1].position).energy};
   return round;
@@ -99,9 +99,9 @@ TEST(OrderEstimate, LacksOfChangesAreTheEnergyOfTheDifference) {
   Simulation simulation = standing(3);
   ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
   AccuracyRound now = round_of(simulation);
-  take_lacks_of_changes(simulation, rounds, now);
-  EXPECT_NEAR(now.lacks[1] / now.energies[1], 0.25, 1e-3);
-  EXPECT_EQ(now.lacks[0], 0.0);
+  take_missing_energy_of_changes(simulation, rounds, now);
+  EXPECT_NEAR(now.missing_energy[1] / now.energies[1], 0.25, 1e-3);
+  EXPECT_EQ(now.missing_energy[0], 0.0);
 }
 
 TEST(OrderEstimate, ABlockThatRoseByOneOrderKeepsTheLargerLack) {
@@ -109,12 +109,12 @@ TEST(OrderEstimate, ABlockThatRoseByOneOrderKeepsTheLargerLack) {
   ASSERT_EQ(run_static(low, 1.0), StaticStatus::equilibrium);
   ASSERT_EQ(run_static(high, 1.0), StaticStatus::equilibrium);
   AccuracyRound now = round_of(high);
-  now.lacks[1] = 7.0;
-  take_lacks_of_changes(high, {round_of(low), round_of(low)}, now);
-  EXPECT_EQ(now.lacks[1], 7.0);
-  now.lacks[1] = -1.0;
-  take_lacks_of_changes(high, {round_of(low), round_of(low)}, now);
-  EXPECT_EQ(now.lacks[1], -1.0) << "not estimated";
+  now.missing_energy[1] = 7.0;
+  take_missing_energy_of_changes(high, {round_of(low), round_of(low)}, now);
+  EXPECT_EQ(now.missing_energy[1], 7.0);
+  now.missing_energy[1] = -1.0;
+  take_missing_energy_of_changes(high, {round_of(low), round_of(low)}, now);
+  EXPECT_EQ(now.missing_energy[1], -1.0) << "not estimated";
 }
 
 }  // namespace

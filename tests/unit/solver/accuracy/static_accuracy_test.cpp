@@ -30,8 +30,8 @@ Simulation standing(int order) {
 /// Displacement of the middle of the bar.
 std::vector<Goal> middle_of_bar(const Simulation& simulation) {
   const Vector3 middle(0.5, 0.5, 1.0);
-  const Vector3 way = place_of(simulation, 1, middle) - middle;
-  return {{"middle", {way.x(), way.y(), way.z()}}};
+  const Vector3 travel = place_of(simulation, 1, middle) - middle;
+  return {{"middle", {travel.x(), travel.y(), travel.z()}}};
 }
 
 // Under its weight the middle sinks by 3/4 of rho g h^2 / 2E; order 1 has half of it at the middle, order 2 is exact.
@@ -110,7 +110,7 @@ TEST(StaticAccuracy, WithoutGoalsTheEnergyOfBlocksIsOne) {
             StaticStatus::equilibrium);
   EXPECT_EQ(simulation.blocks()[1].order(), 2);
   ASSERT_EQ(rounds.orders.size(), 2U);
-  EXPECT_NEAR(rounds.orders[0].lacks[1] / rounds.orders[1].energies[1], 0.25, 1e-3);
+  EXPECT_NEAR(rounds.orders[0].missing_energy[1] / rounds.orders[1].energies[1], 0.25, 1e-3);
   EXPECT_LE(accuracy_estimate({}, rounds).largest(), 1e-3);
 }
 
@@ -199,10 +199,10 @@ TEST(StaticAccuracy, RaisesTheOrdersOfTiedBlocks) {
   EXPECT_LE(accuracy_estimate(goal(simulation), rounds).order, 1e-3);
 }
 
-/// Rounds with these values of one goal. @param lacks of the only block, whose energy is 1 J
-std::vector<AccuracyRound> rounds_of(const std::vector<double>& values, double lacks) {
+/// Rounds with these values of one goal. @param missing_energy of the only block, whose energy is 1 J
+std::vector<AccuracyRound> rounds_of(const std::vector<double>& values, double missing_energy) {
   std::vector<AccuracyRound> rounds;
-  for (const double value : values) rounds.push_back({{{value}}, {1.0}, {lacks}});
+  for (const double value : values) rounds.push_back({{{value}}, {1.0}, {missing_energy}});
   return rounds;
 }
 
@@ -241,7 +241,7 @@ TEST(StaticAccuracy, NamesTheBlockThatConvergesSlowly) {
   AccuracyRounds rounds;
   rounds.orders = {{{}, {1.0, 1.0}, {0.3, 0.2}}, {{}, {1.0, 1.0}, {0.01, 0.15}}};
   EXPECT_EQ(accuracy_estimate({}, rounds).slow_block, 1);
-  rounds.orders.back().lacks = {0.01, 0.05};
+  rounds.orders.back().missing_energy = {0.01, 0.05};
   EXPECT_EQ(accuracy_estimate({}, rounds).slow_block, -1);
 }
 

@@ -132,11 +132,13 @@ TEST(BoltsInARun, AYieldingPropLetsTheBlockDown) {
   const double expected = 0.5 * gravity / (w * w) +
                           gravity / w * std::sin(std::numbers::pi / 3.0) * yielding +
                           0.25 * gravity * yielding * yielding;
-  const Vector3 way = simulation.blocks()[1].motion_of(simulation.states()[1], {0.5, 0.5, 0.5}).displacement;
-  EXPECT_NEAR(way.z(), -expected, 0.01 * expected);
+  const Vector3 travel =
+      simulation.blocks()[1].motion_of(simulation.states()[1], {0.5, 0.5, 0.5}).displacement;
+  EXPECT_NEAR(travel.z(), -expected, 0.01 * expected);
   EXPECT_NEAR(simulation.bolts()[0].axial[0], law.yield_force, 1.0);
   EXPECT_EQ(condition_of(simulation.system().bolts()[0], simulation.bolts()[0]), BoltCondition::yielded);
-  EXPECT_NEAR(simulation.ledger().friction, law.yield_force * -way.z(), 0.05 * law.yield_force * -way.z());
+  EXPECT_NEAR(simulation.ledger().friction, law.yield_force * -travel.z(),
+              0.05 * law.yield_force * -travel.z());
 }
 
 TEST(BoltsInARun, ABarRupturesAtItsStrain) {

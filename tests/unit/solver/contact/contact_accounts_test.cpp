@@ -10,13 +10,13 @@ using Accounts = std::map<PairKey, double>;
 /// Histories of pairs that have taken so much, J.
 PairHistories that_took(const Accounts& accounts) {
   PairHistories histories;
-  for (const auto& [pair, taken] : accounts) histories[pair].taken = taken;
+  for (const auto& [pair, spent] : accounts) histories[pair].spent = spent;
   return histories;
 }
 
 Accounts taken_in(const PairHistories& histories) {
   Accounts accounts;
-  for (const auto& [pair, history] : histories) accounts[pair] = history.taken;
+  for (const auto& [pair, history] : histories) accounts[pair] = history.spent;
   return accounts;
 }
 

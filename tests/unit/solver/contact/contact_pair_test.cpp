@@ -185,7 +185,7 @@ TEST(ContactPair, MultipliersHoldPointsWhereTheyAreFound) {
     PatchStart start;
     start.frozen = 2.0;
     const ContactPair pair = pair_of(setting, multiplier_law(), memory, start);
-    EXPECT_EQ(pair.taken(), 2.0);
+    EXPECT_EQ(pair.spent(), 2.0);
     EXPECT_EQ(pair.depth_found(), std::max(0.0, -gap));
     EXPECT_EQ(pair.start_energy(), 0.0);
     return pair.respond(none(setting.a), none(setting.b), false).points[0].force[0];

@@ -105,7 +105,7 @@ TEST(OccludedFaces, ACornerThatEndsOutsideDoesNotTouch) {
 
 /// True if a second slab continues the surface, for a cube on both, behind the edge of the first one at x = 0.
 /// @param fall of the second one's top over its length, m
-bool goes_on(double second_start, double second_top, double cube_bottom, double fall = 0.0) {
+bool continues(double second_start, double second_top, double cube_bottom, double fall = 0.0) {
   const Body first(box({-1, -1, -1}, {0, 1, 0}));
   std::vector<Vector3> corners;
   for (const double y : {-1.0, 1.0}) {
@@ -126,24 +126,24 @@ bool goes_on(double second_start, double second_top, double cube_bottom, double 
   const double near = std::max(0.0, cube_bottom) + 1e-9;
   const Vector3 right = Vector3::UnitX();
   // Where nothing but the first slab is.
-  EXPECT_FALSE(covered.goes_on(2, 0, {true, bottom, Vector3(-0.4, 0, 0), -right, near}));
+  EXPECT_FALSE(covered.continues(2, 0, {true, bottom, Vector3(-0.4, 0, 0), -right, near}));
   // The second slab is not behind its own rim.
-  EXPECT_FALSE(covered.goes_on(2, 1, {true, bottom, Vector3(0.4, 0, 0), right, near}));
-  return covered.goes_on(2, 0, {true, bottom, Vector3(0, 0, 0), right, near});
+  EXPECT_FALSE(covered.continues(2, 1, {true, bottom, Vector3(0.4, 0, 0), right, near}));
+  return covered.continues(2, 0, {true, bottom, Vector3(0, 0, 0), right, near});
 }
 
 TEST(SurfaceContinuation, ABlockOnTwoLiesOnOneSurface) {
-  EXPECT_TRUE(goes_on(0.0, 0.0, 0.0));
-  EXPECT_TRUE(goes_on(0.0, 0.0, 1e-4)) << "as near as the first";
-  EXPECT_TRUE(goes_on(0.0, -1e-5, -2e-5)) << "lower, but touched";
-  EXPECT_TRUE(goes_on(5e-4, 0.0, -1e-5)) << "a narrow joint";
+  EXPECT_TRUE(continues(0.0, 0.0, 0.0));
+  EXPECT_TRUE(continues(0.0, 0.0, 1e-4)) << "as near as the first";
+  EXPECT_TRUE(continues(0.0, -1e-5, -2e-5)) << "lower, but touched";
+  EXPECT_TRUE(continues(5e-4, 0.0, -1e-5)) << "a narrow joint";
 }
 
 TEST(SurfaceContinuation, RimsAreEndsWhereNothingIsBehindThem) {
-  EXPECT_FALSE(goes_on(2e-3, 0.0, -1e-5)) << "a wide joint";
-  EXPECT_FALSE(goes_on(0.0, -1e-4, -1e-5)) << "lower, not touched";
-  EXPECT_FALSE(goes_on(0.0, -1e-4, 1e-5)) << "lower";
-  EXPECT_FALSE(goes_on(0.0, 0.0, 0.0, 1e-3)) << "the other half of a roof";
+  EXPECT_FALSE(continues(2e-3, 0.0, -1e-5)) << "a wide joint";
+  EXPECT_FALSE(continues(0.0, -1e-4, -1e-5)) << "lower, not touched";
+  EXPECT_FALSE(continues(0.0, -1e-4, 1e-5)) << "lower";
+  EXPECT_FALSE(continues(0.0, 0.0, 0.0, 1e-3)) << "the other half of a roof";
 }
 
 }  // namespace

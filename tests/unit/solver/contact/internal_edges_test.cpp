@@ -74,14 +74,14 @@ TEST(InternalEdges, ACubeSlidesOverThemAsOverOneFloor) {
       Crossing crossing;
       crossing.order = order;
       crossing.area = area;
-      const Vector3 way = travel(crossed(crossing));
-      EXPECT_NEAR(way.x(), 1.2, area ? 1e-8 : 1e-4) << order << area;
+      const Vector3 retraction = travel(crossed(crossing));
+      EXPECT_NEAR(retraction.x(), 1.2, area ? 1e-8 : 1e-4) << order << area;
       // It rests 2.45e-5 m deep and does not sink at a joint, as it would by as much again if springs began
       // anew there.
       if (area && order == 1) {
-        EXPECT_NEAR(way.z(), -2500.0 * 9.81 / 1e9, 2e-6);
+        EXPECT_NEAR(retraction.z(), -2500.0 * 9.81 / 1e9, 2e-6);
       }
-      EXPECT_NEAR(way.z(), 0.0, 1e-4) << order << area;
+      EXPECT_NEAR(retraction.z(), 0.0, 1e-4) << order << area;
     }
   }
 }
@@ -117,17 +117,17 @@ TEST(InternalEdges, StonesWithSidesThatLeanOutSlideOverThem) {
             points.emplace_back((0.4 + overhang) * side, y, 0.2);
           }
         }
-        const Vector3 way = travel(crossed(crossing, Polyhedron(make_convex_hull(points))));
-        EXPECT_NEAR(way.x(), 1.2, 1e-3) << order << area << overhang;
-        EXPECT_NEAR(way.z(), 0.0, 1e-4) << order << area << overhang;
+        const Vector3 retraction = travel(crossed(crossing, Polyhedron(make_convex_hull(points))));
+        EXPECT_NEAR(retraction.x(), 1.2, 1e-3) << order << area << overhang;
+        EXPECT_NEAR(retraction.z(), 0.0, 1e-4) << order << area << overhang;
       }
       // A corner ahead, between two edges that rise.
       const std::vector<Vector3> corner_ahead = {{0.5, 0, 0},      {-0.4, 0.4, 0},   {-0.4, -0.4, 0},
                                                  {0.9, 0.8, 0.5},  {0.9, -0.8, 0.5}, {-0.6, 0.8, 0.5},
                                                  {-0.6, -0.8, 0.5}};
-      const Vector3 way = travel(crossed(crossing, Polyhedron(make_convex_hull(corner_ahead))));
-      EXPECT_NEAR(way.x(), 1.2, 1e-3) << order << area;
-      EXPECT_NEAR(way.z(), 0.0, 1e-4) << order << area;
+      const Vector3 retraction = travel(crossed(crossing, Polyhedron(make_convex_hull(corner_ahead))));
+      EXPECT_NEAR(retraction.x(), 1.2, 1e-3) << order << area;
+      EXPECT_NEAR(retraction.z(), 0.0, 1e-4) << order << area;
     }
   }
 }
@@ -328,17 +328,17 @@ TEST(InternalEdges, ATipStandsOnATip) {
 }
 
 /// A cube that is `deep` in a floor and runs against a step of a height.
-PairContacts against_step(double deep, double height, const std::vector<Retraction>& ways) {
+PairContacts against_step(double deep, double height, const std::vector<Retraction>& retractions) {
   const test_support::PlacedBody cube(test_support::box({0, 0, -deep}, {1, 1, 1}));
   const test_support::PlacedBody step(test_support::box({1 - 1e-4, 0, -1}, {2, 1, height}));
   PairContacts contacts = find_contacts(cube.placed, step.placed, {1e-3, 1e-3, 0.1});
   remove_internal_edges(
-      cube.placed, step.placed, ways, [](const Retraction&) { return true; }, contacts);
+      cube.placed, step.placed, retractions, [](const Retraction&) { return true; }, contacts);
   return contacts;
 }
 
 TEST(InternalEdges, OnlyWhatSinkingMakesIsLeftOut) {
-  const std::vector<Retraction> ways = {{Vector3::UnitZ(), 2e-5, {0, 2}, false}};
+  const std::vector<Retraction> retractions = {{Vector3::UnitZ(), 2e-5, {0, 2}, false}};
   const auto faces_along = [](const PairContacts& contacts, int axis) {
     return std::count_if(
         contacts.overlaps.begin(), contacts.overlaps.end(),
@@ -346,10 +346,10 @@ TEST(InternalEdges, OnlyWhatSinkingMakesIsLeftOut) {
   };
   // Before, the side of the step; after, only its top.
   EXPECT_GT(faces_along(against_step(1e-5, 0.0, {}), 0), 0);
-  EXPECT_EQ(faces_along(against_step(1e-5, 0.0, ways), 0), 0);
-  EXPECT_GT(faces_along(against_step(1e-5, 0.0, ways), 2), 0);
+  EXPECT_EQ(faces_along(against_step(1e-5, 0.0, retractions), 0), 0);
+  EXPECT_GT(faces_along(against_step(1e-5, 0.0, retractions), 2), 0);
   // A step that is higher than the cube has sunk stops it.
-  EXPECT_GT(faces_along(against_step(1e-5, 1e-3, ways), 0), 0);
+  EXPECT_GT(faces_along(against_step(1e-5, 1e-3, retractions), 0), 0);
 }
 
 }  // namespace

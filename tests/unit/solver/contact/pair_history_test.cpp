@@ -39,7 +39,7 @@ TEST(PairHistory, OnlyWhatIsEmptyIsDropped) {
   histories[{0, 2}].work = 1.0;
   histories[{0, 3}].clearance = Clearance{1.0, 0.0};
   histories[{0, 4}].entrance = EntranceName{};
-  histories[{0, 5}].taken = 1.0;
+  histories[{0, 5}].spent = 1.0;
   histories[{0, 6}].depth = 1.0;
   histories[{0, 7}].memory = memory(0.0, 0.0);
   drop_empty(histories);
@@ -54,14 +54,14 @@ TEST(PairHistory, ValuesThatCannotBeAreRefused) {
   };
   PairHistory good;
   good.memory = memory(0.5, 0.0);
-  good.taken = 1.0;
+  good.spent = 1.0;
   EXPECT_NO_THROW(validate({{{0, 2}, good}}, 3));
   refuses({1, 0}, good);
   refuses({1, 1}, good);
   refuses({0, 3}, good);
   refuses({-1, 0}, good);
   PairHistory bad = good;
-  bad.taken = -1.0;
+  bad.spent = -1.0;
   refuses({0, 1}, bad);
   bad = good;
   bad.depth = nan;

@@ -133,15 +133,15 @@ TEST(ConeIteration, RandomRestWithBarsMeetsAllConditions) {
     question.load = of.load;
     const ConeAnswer answer = of.program(1).solve(question);
     EXPECT_EQ(answer.status, ConeStatus::solved) << seed;
-    const Lacking lacks = lacking(of, answer, question.load, {}, true);
+    const Lacking residual = lacking(of, answer, question.load, {}, true);
     double square = 0.0, fastest = 0.0;
     for (const BodyVelocity& load : of.load) square += load.squaredNorm();
     for (const BodyVelocity& v : answer.velocity) fastest = std::max(fastest, v.norm());
     EXPECT_GT(fastest, 0.1) << seed;
-    EXPECT_LT(lacks.balance, 1e-7) << seed;
-    EXPECT_LT(lacks.strength, 1e-7) << seed;
-    EXPECT_LT(lacks.flow, 1e-7) << seed;
-    EXPECT_LT(lacks.work, 1e-7 * square) << seed;
+    EXPECT_LT(residual.balance, 1e-7) << seed;
+    EXPECT_LT(residual.strength, 1e-7) << seed;
+    EXPECT_LT(residual.flow, 1e-7) << seed;
+    EXPECT_LT(residual.work, 1e-7 * square) << seed;
   }
 }
 
@@ -156,15 +156,15 @@ TEST(ConeIteration, RandomRestMeetsAllConditions) {
       if (shifted) question.shift = of.shift;
       const ConeAnswer answer = of.program(1).solve(question);
       EXPECT_EQ(answer.status, ConeStatus::solved) << seed;
-      const Lacking lacks = lacking(of, answer, question.load, question.shift, true);
-      EXPECT_LT(lacks.balance, 1e-7) << seed;
-      EXPECT_LT(lacks.strength, 1e-7) << seed;
-      EXPECT_LT(lacks.flow, 1e-7) << seed;
+      const Lacking residual = lacking(of, answer, question.load, question.shift, true);
+      EXPECT_LT(residual.balance, 1e-7) << seed;
+      EXPECT_LT(residual.strength, 1e-7) << seed;
+      EXPECT_LT(residual.flow, 1e-7) << seed;
       double square = 0.0, fastest = 0.0;
       for (const BodyVelocity& load : of.load) square += load.squaredNorm();
       for (const BodyVelocity& v : answer.velocity) fastest = std::max(fastest, v.norm());
       EXPECT_GT(fastest, 0.1) << seed;
-      EXPECT_LT(lacks.work, 1e-7 * square) << seed;
+      EXPECT_LT(residual.work, 1e-7 * square) << seed;
     }
   }
 }
@@ -187,13 +187,13 @@ TEST(ConeIteration, RandomFactorMeetsAllConditions) {
       fastest = std::max(fastest, answer.velocity[b].norm());
       largest = std::max(largest, loads[b].norm());
     }
-    const Lacking lacks = lacking(of, answer, loads, {}, false);
-    EXPECT_LT(lacks.balance / largest, 1e-7) << seed;
-    EXPECT_LT(lacks.strength / largest, 1e-7) << seed;
+    const Lacking residual = lacking(of, answer, loads, {}, false);
+    EXPECT_LT(residual.balance / largest, 1e-7) << seed;
+    EXPECT_LT(residual.strength / largest, 1e-7) << seed;
     if (answer.factor < 0.999 * question.most) {
       EXPECT_NEAR(growth, 1.0, 1e-6) << seed;
-      EXPECT_LT(lacks.flow / fastest, 1e-7) << seed;
-      EXPECT_LT(lacks.work, 1e-6 * std::max(1.0, answer.factor) * largest) << seed;
+      EXPECT_LT(residual.flow / fastest, 1e-7) << seed;
+      EXPECT_LT(residual.work, 1e-6 * std::max(1.0, answer.factor) * largest) << seed;
     }
   }
 }

@@ -57,9 +57,9 @@ TEST(FollowedBlocks, GapsOverALengthEndAtAThousand) {
 }
 
 TEST(FollowedBlocks, TimesScalesEachMotion) {
-  const std::vector<BodyVelocity> way = times(3.0, {BodyVelocity::Ones(), 2.0 * BodyVelocity::Ones()});
-  EXPECT_EQ(way[0], BodyVelocity(3.0 * BodyVelocity::Ones()));
-  EXPECT_EQ(way[1], BodyVelocity(6.0 * BodyVelocity::Ones()));
+  const std::vector<BodyVelocity> travel = times(3.0, {BodyVelocity::Ones(), 2.0 * BodyVelocity::Ones()});
+  EXPECT_EQ(travel[0], BodyVelocity(3.0 * BodyVelocity::Ones()));
+  EXPECT_EQ(travel[1], BodyVelocity(6.0 * BodyVelocity::Ones()));
 }
 
 TEST(FollowedBlocks, CannotBalanceAPushBeyondFriction) {

@@ -53,17 +53,17 @@ Found capacity_of(const LimitScene& scene, double tolerance = 5e-3) {
   const Simulation simulation = scene.build();
   const std::vector<bool> all(scene.blocks.size(), true);
   const LimitSearch search{0.01, 10.0, tolerance};
-  const auto goes_on = [] { return true; };
+  const auto may_continue = [] { return true; };
   Found found;
   found.associated = LimitAnalysis(
                          simulation.rigid_model(1.0, all), [](int, int) { return true; }, 1)
-                         .load_factor(search, goes_on)
+                         .load_factor(search, may_continue)
                          .associated;
   RigidModel model = simulation.spring_model(1.0, all);
   std::vector<double> allowed(model.bodies.size(), 2.5e-3);
   LoadPath path(
       std::move(model), [](int, int) { return true; }, std::move(allowed));
-  found.path = search_path(path, Sought::load, search, found.associated, goes_on);
+  found.path = search_path(path, Sought::load, search, found.associated, may_continue);
   return found;
 }
 
@@ -101,9 +101,9 @@ TEST(PathSearch, FactorOfASlopeHasItsOnsetAtTheEnd) {
   RigidModel model = simulation.spring_model(1.0);
   LoadPath path(std::move(model), [](int, int) { return true; }, {0.01});
   const LimitSearch search{0.1, 10.0, 1e-3};
-  const auto goes_on = [] { return true; };
-  const LimitBracket associated = scene.analysis().strength_factor(search, goes_on).associated;
-  const PathAnswer found = search_path(path, Sought::strength, search, associated, goes_on);
+  const auto may_continue = [] { return true; };
+  const LimitBracket associated = scene.analysis().strength_factor(search, may_continue).associated;
+  const PathAnswer found = search_path(path, Sought::strength, search, associated, may_continue);
   ASSERT_TRUE(found.lower && found.upper && found.onset);
   EXPECT_LE(*found.lower, exact * (1.0 + 1e-6));
   EXPECT_GE(*found.upper, exact * (1.0 - 1e-6));

@@ -60,7 +60,7 @@ TEST(PushedBlocks, TurnAboutAnEdgeThatStays) {
     place = standing.blocks.advanced(*place, standing.lengths.longest_step);
     ASSERT_TRUE(place);
     EXPECT_LT((standing.corner(*place) - Vector3(0.5, 0.5, 0.0)).norm(), 1e-8);
-    EXPECT_GT(standing.blocks.last_way(), 0.0);
+    EXPECT_GT(standing.blocks.last_travel(), 0.0);
   }
   EXPECT_LT(place->multiplier, 0.25);
 }
@@ -89,7 +89,7 @@ TEST(PushedBlocks, SettleWhereTheyAre) {
   Standing standing;
   const auto place = standing.blocks.start();
   ASSERT_TRUE(place);
-  const auto again = standing.blocks.settled(place->placement, standing.lengths.farthest);
+  const auto again = standing.blocks.equilibrium_from(place->placement, standing.lengths.farthest);
   ASSERT_TRUE(again);
   EXPECT_EQ(again->placement.states[0].position, place->placement.states[0].position);
   EXPECT_NEAR(again->multiplier, place->multiplier, 1e-7);

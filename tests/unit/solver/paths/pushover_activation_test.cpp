@@ -63,7 +63,7 @@ TEST(PushoverActivation, AnEndedSearchIsInterrupted) {
   const Simulation simulation = wall(0.7).build();
   PushoverSearch search;
   search.limit = 1e-3;
-  search.goes_on = [] { return false; };
+  search.may_continue = [] { return false; };
   const PlacedScene placed{simulation.system(), simulation.states(), simulation.histories(), 1.0, 1};
   EXPECT_FALSE(pushover_activation(placed, search, 0.5));
   EXPECT_EQ(pushover(placed, search).end, PushoverEnd::interrupted);

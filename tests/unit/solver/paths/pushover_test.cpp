@@ -361,7 +361,7 @@ TEST(Pushover, RefusesWhatItCannotFollow) {
 TEST(Pushover, IsInterruptedWhereItIs) {
   PushoverSearch search = along({1, 0, 0}, 1.0);
   int steps = 0;
-  search.goes_on = [&] { return ++steps < 4; };
+  search.may_continue = [&] { return ++steps < 4; };
   const Pushover found = pushed(standing(0.5, 2.0).build(), search);
   EXPECT_EQ(found.end, PushoverEnd::interrupted);
   EXPECT_EQ(found.places.size(), 4U);

@@ -210,7 +210,7 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
                        Vector3(36, 37, 38), true, 43.0, 44.0}}},
                     {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}}, 9, {24.0, 25.0}, 27);
   pair.work = 10.0;
-  pair.taken = 39.0;
+  pair.spent = 39.0;
   pair.depth = 40.0;
   run.pairs[{1, 2}].clearance = Clearance{41.0, 42.0};
   run.log.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
@@ -229,7 +229,7 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   const PairHistory& touching = back.pairs.at({0, 1});
   EXPECT_FALSE(touching.clearance);
   EXPECT_EQ(touching.work, 10.0);
-  EXPECT_EQ(touching.taken, 39.0);
+  EXPECT_EQ(touching.spent, 39.0);
   EXPECT_EQ(touching.depth, 40.0);
   ASSERT_TRUE(back.pairs.at({1, 2}).clearance);
   EXPECT_EQ(back.pairs.at({1, 2}).clearance->distance, 41.0);

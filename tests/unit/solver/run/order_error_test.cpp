@@ -39,10 +39,10 @@ TEST(OrderError, IsTheEnergyThatOrderOneLacksUnderWeight) {
   const auto errors = order_errors(hanging(1));
   ASSERT_EQ(errors.size(), 1U);
   EXPECT_NEAR(errors[0].energy / exact, 0.75, 1e-12);
-  EXPECT_NEAR(errors[0].lacks / exact, 0.25, 1e-9);
+  EXPECT_NEAR(errors[0].missing_energy / exact, 0.25, 1e-9);
   EXPECT_NEAR(errors[0].relative(), 0.5, 1e-9);
   EXPECT_NEAR(relative_error(errors), 0.5, 1e-9);
-  for (const int order : {2, 3}) EXPECT_EQ(order_errors(hanging(order))[0].lacks, 0.0) << order;
+  for (const int order : {2, 3}) EXPECT_EQ(order_errors(hanging(order))[0].missing_energy, 0.0) << order;
 }
 
 // The same bar on a base, by contact.
@@ -60,7 +60,7 @@ TEST(OrderError, CountsContactForces) {
       const auto errors = order_errors(simulation);
       ASSERT_EQ(errors.size(), 1U) << "the base is fixed";
       EXPECT_EQ(errors[0].block, 1);
-      EXPECT_NEAR(errors[0].lacks / exact, order == 1 ? 0.25 : 0.0, 1e-3) << order << augmented;
+      EXPECT_NEAR(errors[0].missing_energy / exact, order == 1 ? 0.25 : 0.0, 1e-3) << order << augmented;
     }
   }
 }
@@ -82,7 +82,7 @@ TEST(OrderError, CountsForcesOfTies) {
     const auto errors = order_errors(simulation);
     ASSERT_EQ(errors.size(), 2U);
     for (const OrderError& error : errors)
-      EXPECT_NEAR(error.lacks / exact, order == 1 ? 1.0 / 12.0 / (8.0 / 3.0) : 0.0, 1e-5) << order;
+      EXPECT_NEAR(error.missing_energy / exact, order == 1 ? 1.0 / 12.0 / (8.0 / 3.0) : 0.0, 1e-5) << order;
     EXPECT_NEAR(relative_error(errors), order == 1 ? 0.25 : 0.0, 1e-4) << order;
   }
 }
@@ -124,7 +124,7 @@ TEST(OrderError, AFreeBlockNeedsNoModelOfHigherOrder) {
       EXPECT_EQ(found.blocks, 1);
       ASSERT_EQ(found.errors.size(), 1U) << order << ' ' << time;
       EXPECT_EQ(found.errors[0].block, 0);
-      EXPECT_EQ(found.errors[0].lacks, 0.0);
+      EXPECT_EQ(found.errors[0].missing_energy, 0.0);
     }
   }
 }
@@ -148,8 +148,8 @@ TEST(OrderError, LargestForcesComeFirstWithinALimitOfWork) {
   const Simulation simulation = two_hanging();
   const std::vector<OrderError> all = order_errors(simulation);
   ASSERT_EQ(all.size(), 2U);
-  EXPECT_NEAR(all[0].lacks / exact, 0.25, 1e-9);
-  EXPECT_NEAR(all[1].lacks / exact, 4 * 0.25, 1e-9) << "squares of stresses";
+  EXPECT_NEAR(all[0].missing_energy / exact, 0.25, 1e-9);
+  EXPECT_NEAR(all[1].missing_energy / exact, 4 * 0.25, 1e-9) << "squares of stresses";
   // Order 3 of a box with 12 triangles: 20 * 20^3 + 50 * 12 * 20^2 for the model, 6 * 20^3 for the solution.
   constexpr double of_one = 400000.0 + 48000.0;
   for (const auto& [work, count] :
@@ -159,7 +159,7 @@ TEST(OrderError, LargestForcesComeFirstWithinALimitOfWork) {
     ASSERT_EQ(some.errors.size(), count) << work;
     if (count != 1) continue;
     EXPECT_EQ(some.errors[0].block, 1);
-    EXPECT_EQ(some.errors[0].lacks, all[1].lacks);
+    EXPECT_EQ(some.errors[0].missing_energy, all[1].missing_energy);
     EXPECT_EQ(some.errors[0].energy, all[1].energy);
   }
 }
@@ -184,8 +184,8 @@ TEST(OrderError, EqualBlocksHaveTheBitsOfSingleOnes) {
     ASSERT_EQ(errors.back().size(), 2U);
   }
   for (const std::size_t k : {0U, 1U}) {
-    EXPECT_NEAR(errors[1][k].lacks / exact, 0.25, 1e-3);
-    EXPECT_EQ(errors[1][k].lacks, errors[0][k].lacks);
+    EXPECT_NEAR(errors[1][k].missing_energy / exact, 0.25, 1e-3);
+    EXPECT_EQ(errors[1][k].missing_energy, errors[0][k].missing_energy);
     EXPECT_EQ(errors[1][k].energy, errors[0][k].energy);
   }
 }

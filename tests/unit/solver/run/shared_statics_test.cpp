@@ -75,7 +75,8 @@ Placed on_slope(double friction, const std::vector<double>& ways) {
   };
   scene.blocks.push_back(block_of("cube", tilted({-0.5, -0.5, 0}, {0.5, 0.5, 1}), brick, 1));
   scene.add_fixed(tilted({-6, -2, -1}, {2, 2, 0}));
-  for (const double way : ways) scene.add_fixed(tilted({-1.5 - way, -2, 0.25}, {-0.5 - way, 2, 0.75}));
+  for (const double travel : ways)
+    scene.add_fixed(tilted({-1.5 - travel, -2, 0.25}, {-0.5 - travel, 2, 0.75}));
   return scene;
 }
 
@@ -214,15 +215,15 @@ TEST(SharedStatics, BlocksOfTwoRanksSlide) {
 
 /// Blocks on the way of certain motion that were no ghosts when it began.
 TEST(SharedStatics, AnObstacleOfAnotherRankAheadIsDetected) {
-  for (const double way : {0.3, 5e-4}) {
-    Placed scene = on_slope(0.0, {way});
+  for (const double travel : {0.3, 5e-4}) {
+    Placed scene = on_slope(0.0, {travel});
     // A body of the other rank.
     scene.add_fixed(Polyhedron(make_box({10, 0, 0}, {12, 2, 1})));
     scene.add({10.5, 0.5, 1}, {11.5, 1.5, 2});
     const Verdict shared = run_shared(scene, {0, 0, 1, 1, 1}, 2, analyse);
-    EXPECT_EQ(shared.status, StaticStatus::equilibrium) << way;
+    EXPECT_EQ(shared.status, StaticStatus::equilibrium) << travel;
     const Verdict alone = run_alone(scene, analyse);
-    EXPECT_EQ(alone.status, StaticStatus::equilibrium) << way;
+    EXPECT_EQ(alone.status, StaticStatus::equilibrium) << travel;
     EXPECT_LT(distance(alone.states, shared.states), 1e-7);
   }
   const Verdict free = run_shared(on_slope(0.0, {1.5}), {0, 0, 1}, 2, analyse);

@@ -35,8 +35,9 @@ Simulation on_slope(const std::vector<double>& ways, bool cube_last = false) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, 1));
   blocks.emplace_back(fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, incline)));
-  for (const double way : ways)
-    blocks.emplace_back(fixed_block(tilted_box({-1.5 - way, -2, 0.25}, {-0.5 - way, 2, 0.75}, incline)));
+  for (const double travel : ways)
+    blocks.emplace_back(
+        fixed_block(tilted_box({-1.5 - travel, -2, 0.25}, {-0.5 - travel, 2, 0.75}, incline)));
   if (cube_last) std::rotate(blocks.begin(), blocks.begin() + 1, blocks.end());
   const std::vector<InitialMotion> at_rest(blocks.size());
   return Simulation(std::move(blocks), at_rest, same_law({1e10, 1e10, 0.0, 0.0, 0.0, true}), {});
@@ -64,13 +65,13 @@ TEST(CertainMotion, MotionWithoutObstacleStopsEarly) {
 
 TEST(CertainMotion, AnObstacleAheadIsDetected) {
   // 0.3 m: no contact is detected. 5e-4 m: half the contact distance, with an open contact.
-  for (const double way : {0.3, 5e-4}) {
+  for (const double travel : {0.3, 5e-4}) {
     for (const bool cube_last : {false, true}) {
-      Simulation simulation = on_slope({way}, cube_last);
+      Simulation simulation = on_slope({travel}, cube_last);
       const std::size_t cube = cube_last ? 2 : 0;
       const Vector3 start = place_of(simulation, cube, {0, 0, 0});
-      ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << way << cube_last;
-      EXPECT_NEAR((place_of(simulation, cube, {0, 0, 0}) - start).norm(), way, 1e-5);
+      ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << travel << cube_last;
+      EXPECT_NEAR((place_of(simulation, cube, {0, 0, 0}) - start).norm(), travel, 1e-5);
     }
   }
 }

@@ -119,10 +119,10 @@ TEST_P(RigidBlock, SlidesDownASlope) {
                           same_law(joint(std::tan(20 * degree), augmented)), settings);
     const Vector3 before = place_of(simulation, 1, {0, 0, 0});
     ASSERT_TRUE(run_until(simulation, 0.4));
-    const double way = (place_of(simulation, 1, {0, 0, 0}) - before).norm();
+    const double travel = (place_of(simulation, 1, {0, 0, 0}) - before).norm();
     const double expected =
         0.5 * 10.0 * 0.16 * (std::sin(30 * degree) - std::tan(20 * degree) * std::cos(30 * degree));
-    EXPECT_NEAR(way, expected, 0.01 * expected);
+    EXPECT_NEAR(travel, expected, 0.01 * expected);
   }
 }
 

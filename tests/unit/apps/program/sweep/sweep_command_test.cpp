@@ -141,9 +141,9 @@ TEST_F(Sweep, SamplesHaveStatisticsAndAHistogram) {
     const double time = std::stod(table[k]);
     EXPECT_GE(time, 0.1);
     EXPECT_LE(time, 0.2);
-    const double way = std::stod(table[k].substr(table[k].rfind(',') + 1));
-    EXPECT_NEAR(way, -0.5 * 9.81 * time * time, 1e-9);
-    mean += way / 5.0;
+    const double displacement = std::stod(table[k].substr(table[k].rfind(',') + 1));
+    EXPECT_NEAR(displacement, -0.5 * 9.81 * time * time, 1e-9);
+    mean += displacement / 5.0;
   }
   EXPECT_THAT(faults_, HasSubstr(fmt::format("middle.uz: 5 samples, mean {:.4g}", mean)));
   EXPECT_THAT(text("p.py"), HasSubstr("5 samples"));

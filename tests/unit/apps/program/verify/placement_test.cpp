@@ -284,7 +284,7 @@ TEST(Collision, TurnsWithItsScene) {
 
 /// An arch of nine voussoirs of order 2 that is released: 50 steps. Their faces coincide up to the compression of
 /// the springs. @return displacements of all corners, in the scene's own axes
-std::vector<Vector3> settled_arch(bool area_springs, const Placement& placement) {
+std::vector<Vector3> arch_at_rest(bool area_springs, const Placement& placement) {
   ContactScene scene(placement);
   scene.settings.time_step = 1e-3;
   scene.settings.search.subdivisions = 0;
@@ -311,8 +311,8 @@ std::vector<Vector3> settled_arch(bool area_springs, const Placement& placement)
 
 TEST(Arch, TurnsWithItsScene) {
   for (const bool area_springs : {true, false}) {
-    const std::vector<Vector3> here = settled_arch(area_springs, {});
-    const std::vector<Vector3> there = settled_arch(area_springs, some_placement());
+    const std::vector<Vector3> here = arch_at_rest(area_springs, {});
+    const std::vector<Vector3> there = arch_at_rest(area_springs, some_placement());
     double farthest = 0.0;
     for (const Vector3& displacement : here) farthest = std::max(farthest, displacement.norm());
     EXPECT_GT(farthest, 1e-6);

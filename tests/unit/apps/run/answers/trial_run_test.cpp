@@ -41,12 +41,12 @@ load = [{ point = [0, 0.5, 0.75], force = [500, 0, 0] }]
 
 /// Iterates at most some times. @return number of iterations taken
 int iterated(TrialRun& trial, int most) {
-  int taken = 0;
-  while (taken < most && !trial.result()) {
+  int steps = 0;
+  while (steps < most && !trial.result()) {
     (void)trial.iterate();
-    ++taken;
+    ++steps;
   }
-  return taken;
+  return steps;
 }
 
 TEST(TrialFolder, OneThatIsStoppedGoesOnWhereItWas) {

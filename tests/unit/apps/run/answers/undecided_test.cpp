@@ -24,8 +24,8 @@ fixed = true
 box = { min = [-3, -3, -1], max = [3, 3, 0] }
 )";
 
-/// Of a scene as placed. @param goes_on of the search
-std::string factors_of(const std::string& text, bool goes_on = true) {
+/// Of a scene as placed. @param may_continue of the search
+std::string factors_of(const std::string& text, bool may_continue = true) {
   const TemporaryFolder folder;
   write_text(folder / "s.toml", text);
   Diagnostics diagnostics;
@@ -33,7 +33,7 @@ std::string factors_of(const std::string& text, bool goes_on = true) {
   EXPECT_TRUE(loaded) << to_string(diagnostics.sorted().front());
   const std::optional<BuiltSimulation> built = build_simulation(*loaded, 1, diagnostics);
   EXPECT_TRUE(built);
-  return undecided_factors(built->simulation, 1.0, 1, [goes_on] { return goes_on; });
+  return undecided_factors(built->simulation, 1.0, 1, [may_continue] { return may_continue; });
 }
 
 // One block on a plane: both limits are the ratio of the tangents.

@@ -144,8 +144,8 @@ TEST(VelocityContact, FrictionIsThatOfAllThatBears) {
     Simulation simulation(std::move(blocks), {{}, {{speed, 0, 0}, {0, 0, 0}}},
                           same_law({2e10, 1e10, friction, 0.0, 0.0, true}), settings);
     ASSERT_TRUE(test_support::run_until(simulation, time));
-    const double way = test_support::place_of(simulation, 1, {0.5, 0.5, 0.5}).x() - 0.5;
-    EXPECT_NEAR(way, speed * time - 0.5 * friction * 9.81 * time * time, 2e-3 * speed * time);
+    const double travel = test_support::place_of(simulation, 1, {0.5, 0.5, 0.5}).x() - 0.5;
+    EXPECT_NEAR(travel, speed * time - 0.5 * friction * 9.81 * time * time, 2e-3 * speed * time);
   }
 }
 
