@@ -277,11 +277,11 @@ void IslandProblem::add_contact_forces(const std::vector<PairResponse>& response
 }
 
 std::vector<Eigen::VectorXd> IslandProblem::changes(const Eigen::VectorXd& change) const {
-  std::vector<Eigen::VectorXd> result;
-  for (std::size_t k = 0; k < bodies(); ++k) {
+  std::vector<Eigen::VectorXd> result(bodies());
+  parallel_for(threads(), result.size(), [&](std::size_t k) {
     const int offset = solver_.matrix.offset(static_cast<int>(k));
-    result.push_back(body(k).of_unknowns(change.segment(offset, body(k).model->freedom())));
-  }
+    result[k] = body(k).of_unknowns(change.segment(offset, body(k).model->freedom()));
+  });
   return result;
 }
 

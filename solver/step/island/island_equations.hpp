@@ -102,6 +102,8 @@ class IslandProblem {
   [[nodiscard]] const BodyStep& block(int index) const { return bodies_[at(index)]; }
   /// Indices of a pair's blocks among the island's bodies; -1: fixed.
   [[nodiscard]] const std::array<int, 2>& places(std::size_t pair) const { return places_[pair]; }
+  /// Pairs of a body of the island, in their order.
+  [[nodiscard]] const std::vector<std::size_t>& pairs_of(std::size_t body) const { return pairs_of_[body]; }
   /// Position at which the elastic force of a body is evaluated, (p, 3).
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   [[nodiscard]] IslandSolvers::Entry& solver() const { return solver_; }

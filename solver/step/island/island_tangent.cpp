@@ -47,7 +47,7 @@ void IslandTangent::assemble(bool positive) {
   const TimeScheme& scheme = problem_.scheme();
   BlockMatrix& matrix = solver_.matrix;
   matrix.set_zero();
-  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+  parallel_for(problem_.threads(), problem_.bodies(), [&](std::size_t k) {
     const BodyStep& body = problem_.body(k);
     if (scheme.force_weight > 0.0 && !body.model->rigid()) {
       matrix.add_diagonal(
@@ -57,7 +57,7 @@ void IslandTangent::assemble(bool positive) {
     if (body.dashpots != nullptr)
       matrix.add_diagonal(static_cast<int>(k), weight_of_dashpots() * *body.dashpots);
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme.inertia);
-  }
+  });
   // Few at a time, added in the order of pairs: tangents of all would take more memory than all points.
   constexpr std::size_t together = 128;
   std::vector<PairTangent> tangents(std::min(together, problem_.pairs()));
@@ -145,7 +145,7 @@ bool IslandTangent::products_pay() const {
 
 void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const {
   const TimeScheme& scheme = problem_.scheme();
-  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+  parallel_for(problem_.threads(), problem_.bodies(), [&](std::size_t k) {
     const BodyStep& body = problem_.body(k);
     const int offset = solver_.matrix.offset(static_cast<int>(k));
     const Eigen::VectorXd of_body = x.segment(offset, body.model->freedom());
@@ -156,50 +156,44 @@ void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force)
     }
     if (body.dashpots != nullptr)
       force.segment(offset, of_body.size()) += weight_of_dashpots() * (*body.dashpots * of_body);
-  }
+  });
 }
 
 void IslandTangent::add_pairs(std::vector<PairProduct>& products, bool with_bolts, const Eigen::VectorXd& x,
                               Eigen::VectorXd& force) const {
-  const auto equations = [&](auto& of_island, std::size_t k) {
-    return of_island.segment(solver_.matrix.offset(static_cast<int>(k)), problem_.body(k).model->freedom());
-  };
-  std::vector<Eigen::VectorXd> changes, forces;  // of each body, in its unknowns
-  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
-    changes.push_back(problem_.body(k).of_unknowns(equations(x, k)));
-    forces.emplace_back(Eigen::VectorXd::Zero(changes[k].size()));
-  }
+  const std::vector<Eigen::VectorXd> changes = problem_.changes(x);
   const Eigen::VectorXd none;  // of fixed blocks
-  const auto of = [](int place, const auto& of_bodies, const auto& otherwise) -> const auto& {
-    return place < 0 ? otherwise : of_bodies[at(place)];
+  const auto change_of = [&](int place) -> const Eigen::VectorXd& {
+    return place < 0 ? none : changes[at(place)];
   };
-  parallel_for(problem_.threads(), products.size(), [&](std::size_t n) {
-    PairProduct& one = products[n];
-    const auto& [a, b] = problem_.places(one.pair);
-    const Eigen::VectorXd& of_a = of(a, changes, none);
-    const Eigen::VectorXd& of_b = of(b, changes, none);
-    one.on_a.setZero(of_a.size());
-    one.on_b.setZero(of_b.size());
-    problem_.pair(one.pair).rows().add_product(one.points, of_a, of_b, one.on_a, one.on_b);
+  parallel_for(problem_.threads(), products.size(), [&](std::size_t k) {
+    PairProduct& one = products[k];
+    if (one.points.cols() == 0) return;
+    const auto& [a, b] = problem_.places(k);
+    one.on_a.setZero(change_of(a).size());
+    one.on_b.setZero(change_of(b).size());
+    problem_.pair(k).rows().add_product(one.points, change_of(a), change_of(b), one.on_a, one.on_b);
   });
-  // In the order of pairs, independent of the threads.
-  for (const PairProduct& one : products) {
-    const auto& [a, b] = problem_.places(one.pair);
-    if (a >= 0) forces[at(a)] += one.on_a;
-    if (b >= 0) forces[at(b)] += one.on_b;
-  }
+  std::vector<Eigen::VectorXd> forces(problem_.bodies());  // of each body, in its unknowns
+  parallel_for(problem_.threads(), forces.size(), [&](std::size_t body) {
+    forces[body].setZero(changes[body].size());
+    for (const std::size_t k : problem_.pairs_of(body)) {
+      if (products[k].points.cols() == 0) continue;
+      forces[body] += problem_.places(k)[0] == static_cast<int>(body) ? products[k].on_a : products[k].on_b;
+    }
+  });
   if (with_bolts) problem_.bolts().add_products(changes, forces);
-  for (std::size_t k = 0; k < problem_.bodies(); ++k)
-    equations(force, k) += problem_.body(k).in_equations(forces[k]);
+  parallel_for(problem_.threads(), forces.size(), [&](std::size_t body) {
+    force.segment(solver_.matrix.offset(static_cast<int>(body)), problem_.body(body).model->freedom()) +=
+        problem_.body(body).in_equations(forces[body]);
+  });
 }
 
 std::vector<IslandTangent::PairProduct> IslandTangent::products_of(
     const std::function<PointStiffnesses(std::size_t)>& stiffnesses) const {
-  std::vector<PointStiffnesses> all(problem_.pairs());
-  parallel_for(problem_.threads(), all.size(), [&](std::size_t k) { all[k] = stiffnesses(k); });
-  std::vector<PairProduct> products;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (all[k].cols() > 0) products.push_back({k, std::move(all[k]), {}, {}});
+  std::vector<PairProduct> products(problem_.pairs());
+  parallel_for(problem_.threads(), products.size(),
+               [&](std::size_t k) { products[k].points = stiffnesses(k); });
   return products;
 }
 
@@ -246,7 +240,9 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   if (coupled)
     couplings = products_of(
         [&](std::size_t k) { return problem_.pair(k).rows().couplings(problem_.derivatives(k)); });
-  if (!problem_.sums().any(!couplings.empty())) return solver_.factor->solve(right_side);
+  const bool any = std::any_of(couplings.begin(), couplings.end(),
+                               [](const PairProduct& one) { return one.points.cols() > 0; });
+  if (!problem_.sums().any(any)) return solver_.factor->solve(right_side);
   const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
     add_pairs(couplings, false, x, force);
