@@ -1,4 +1,6 @@
 // [contact] and [[joint]].
+#include "apps/scene/keys/joint_law_keys.hpp"
+
 #include <fmt/format.h>
 
 #include "apps/scene/keys/scene_keys.hpp"
@@ -294,6 +296,12 @@ const Keys<Energy> both_energies_table(
          number("shear", &Energy::shear, range::positive, "J/m^2", "").required_always()});
 
 }  // namespace
+
+std::vector<std::string> joint_law_keys() {
+  std::vector<std::string> names;
+  for (const Key<Joint>& key : keys_of_law()) names.emplace_back(key.name);
+  return names;
+}
 
 const Keys<FractureEnergy>& both_energies_keys() {
   return both_energies_table;

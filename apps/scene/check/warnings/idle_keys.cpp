@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#include "apps/scene/keys/joint_law_keys.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -117,10 +119,7 @@ void warn_of_ties(const Scene& scene, IdleKeys& keys) {
       return name.find_first_of("*?[") != std::string::npos;
     };
     if (!joint.tied.value_or(false) || is_glob(joint.blocks[0]) || is_glob(joint.blocks[1])) continue;
-    for (const char* key :
-         {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength",
-          "compressive_strength", "friction_angle_residual", "cohesion_residual", "tensile_strength_residual",
-          "dilation_angle", "damping", "restitution", "fracture_energy", "roughness"})
+    for (const std::string& key : keys::joint_law_keys())
       keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
   }
 }
