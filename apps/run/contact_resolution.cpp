@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "geometry/index.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -83,8 +82,8 @@ std::optional<ChordError> largest_chord_error(const Simulation& simulation) {
   std::optional<ChordError> largest;
   std::map<int, SubFaces> surfaces;
   for (const PairRecord& record : simulation.contacts()) {
-    const double smaller = std::min(block_size(simulation.blocks()[at(record.a)]),
-                                    block_size(simulation.blocks()[at(record.b)]));
+    const double smaller =
+        std::min(simulation.blocks()[at(record.a)].size(), simulation.blocks()[at(record.b)].size());
     for (const bool of_a : {true, false}) {
       const int block = of_a ? record.a : record.b;
       if (!simulation.finder().surfaces()[at(block)].curves()) continue;
@@ -107,7 +106,7 @@ std::optional<ChordError> largest_chord_error(const Simulation& simulation) {
 
 std::optional<SmallContact> unresolved_contact(const Simulation& simulation, int block) {
   const BlockModel& model = simulation.blocks()[at(block)];
-  const double resolved = block_size(model) / model.order();
+  const double resolved = model.size() / model.order();
   SmallContact patch;
   double largest = 0.0;  // mean pressure, Pa
   for (const PairRecord& record : simulation.contacts()) {

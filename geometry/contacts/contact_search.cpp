@@ -10,6 +10,7 @@
 
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/contacts/feature_boxes.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/exact/rounding_mode.hpp"
 #include "geometry/index.hpp"
 
@@ -122,8 +123,8 @@ void find_vertex_contacts(const VertexSearch& search, int vertex_index, const st
   const PlacedSurface& with_vertex = search.with_vertex;
   const PlacedSurface& with_cell = search.with_cell;
   const ContactLimits& limits = search.limits;
-  const double cosine = std::cos(limits.angle);
-  const double sine = std::sin(limits.angle);
+  const double cosine = limits.angle.cosine();
+  const double sine = limits.angle.sine();
   const SurfaceVertex& vertex = with_vertex.surface().vertices[at(vertex_index)];
   const Vector3& place = with_vertex.point(vertex.point);
   std::vector<CellBelow> found = bounding_cells(with_cell, near_below(search, place, cells, contacts.counts));
@@ -194,7 +195,7 @@ std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, co
   const Vector3 v = ends_b[1] - ends_b[0];
   const Vector3 r = ends_a[0] - ends_b[0];
   Vector3 normal = u.cross(v);
-  const double sine = std::sin(limits.angle);
+  const double sine = limits.angle.sine();
   // Edges that stay within reach of each other along the shorter one are treated as parallel.
   if (normal.norm() <= std::min(sine * u.norm() * v.norm(), limits.reach * std::max(u.norm(), v.norm())))
     return std::nullopt;
@@ -211,7 +212,7 @@ std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, co
   if (!edge_is_end(b, eb, normal, sine) || !edge_is_end(a, ea, -normal, sine)) return std::nullopt;
   const std::vector<int> cells_a(ea.cells.begin(), ea.cells.end());
   const std::vector<int> cells_b(eb.cells.begin(), eb.cells.end());
-  const double cosine = std::cos(limits.angle);
+  const double cosine = limits.angle.cosine();
   for (const int cell : cells_b) {
     if (any_facing(a, cells_a, b.normal(cell), cosine)) return std::nullopt;
   }
@@ -279,7 +280,7 @@ void find_all_vertex_contacts(const VertexSearch& search, const IndexedBoxes& ve
   const IndexedBoxes cells_a = of_a.cells();
   const IndexedBoxes cells_b = of_b.cells();
   contacts.cells_near = static_cast<long>(cells_a.indices.size() + cells_b.indices.size());
-  const double cosine = std::cos(limits.angle);
+  const double cosine = limits.angle.cosine();
   for (const auto& [i, j] : meeting_boxes(cells_a.boxes, cells_b.boxes)) {
     const int cell_a = cells_a.indices[at(i)];
     const int cell_b = cells_b.indices[at(j)];
@@ -302,6 +303,9 @@ void find_all_vertex_contacts(const VertexSearch& search, const IndexedBoxes& ve
 }
 
 }  // namespace
+
+ContactAngle::ContactAngle(double angle)
+    : cosine_(correctly_rounded::cos(angle)), sine_(correctly_rounded::sin(angle)) {}
 
 double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cells) {
   std::set<int> faces;

@@ -18,10 +18,23 @@
 namespace ashlar {
 
 /// Limits of contact detection. The comparison with each limit is the user's resolution, and applied nowhere else.
+/// Largest angle between faces in face-face contact.
+class ContactAngle {
+ public:
+  /// @param angle rad, 0 to pi/4
+  ContactAngle(double angle);
+  [[nodiscard]] double cosine() const { return cosine_; }
+  [[nodiscard]] double sine() const { return sine_; }
+
+ private:
+  double cosine_;
+  double sine_;
+};
+
 struct ContactLimits {
   double reach = 0.0;        ///< m, largest gap, beyond the chord bounds of curved cells
   double penetration = 0.0;  ///< m, largest depth of an entrance through this face
-  double angle = 0.0;        ///< rad, 0 to pi/4, largest angle between faces in face-face contact
+  ContactAngle angle = 0.0;
   /// m, largest depth of any contact, for cells of any size: beyond it, faces may face each other from opposite sides
   /// of both blocks
   double deepest = std::numeric_limits<double>::infinity();

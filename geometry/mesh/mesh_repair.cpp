@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/union_find.hpp"
 
 namespace ashlar {
@@ -140,7 +141,7 @@ void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
   const Vector3 x = axis.unitOrthogonal(), y = axis.cross(x);
   const auto angle_of = [&](const EdgeSide& side) {
     const Vector3 arm = mesh.points[static_cast<std::size_t>(side.apex)] - from;
-    return std::atan2(arm.dot(y), arm.dot(x));
+    return correctly_rounded::atan2(arm.dot(y), arm.dot(x));
   };
   std::vector<bool> used(sides.size(), false);
   for (const EdgeSide& forward : sides) {

@@ -1,7 +1,5 @@
 #include "mechanics/basis/monomial_basis.hpp"
 
-#include <cmath>
-
 #include "geometry/index.hpp"
 #include "mechanics/basis/moments.hpp"
 
@@ -18,6 +16,12 @@ std::pair<Vector3, double> middle_and_size(const TriangleMesh& mesh) {
   }
   const std::vector<double> first = moments(mesh, 1);
   return {Vector3(first[1], first[2], first[3]) / first[0], 0.5 * (high - low).norm()};
+}
+
+double power(double x, int exponent) {
+  double result = 1.0;
+  for (int k = 0; k < exponent; ++k) result *= x;
+  return result;
 }
 
 }  // namespace
@@ -41,7 +45,7 @@ Eigen::MatrixXd MonomialBasis::values(const std::vector<Vector3>& points) const 
     const Vector3 x = (points[n] - center_) / unit_;
     for (int k = 0; k < size(); ++k) {
       const auto& [a, b, c] = exponents_[at(k)];
-      result(static_cast<Eigen::Index>(n), k) = std::pow(x.x(), a) * std::pow(x.y(), b) * std::pow(x.z(), c);
+      result(static_cast<Eigen::Index>(n), k) = power(x.x(), a) * power(x.y(), b) * power(x.z(), c);
     }
   }
   return result;

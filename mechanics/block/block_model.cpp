@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "mechanics/basis/field_moments.hpp"
 
 namespace ashlar {
@@ -40,6 +41,7 @@ BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const Increme
                        CarriedShape carried, const BlockPartsLibrary::Found& found)
     : definition_(std::move(definition)),
       basis_(found.basis),
+      size_(correctly_rounded::cbrt(basis_.volume())),
       parts_(found.parts),
       form_(std::move(form)),
       carried_(std::move(carried)) {

@@ -18,7 +18,7 @@ MaterialMap::MaterialMap(const BlockModel& model, const BlockState& state)
     : model_(&model),
       state_(&state),
       affine_(model.fixed() || model.order() == 1),
-      size_(std::cbrt(model.basis().volume())),
+      size_(model.size()),
       centroid_(model.basis().centroid()),
       middle_(state.position.transpose() * model.basis().values(centroid_)),
       gradient_(gradient(centroid_)),

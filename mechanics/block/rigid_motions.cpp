@@ -10,10 +10,6 @@ namespace {
 /// A motion is admissible if its projection on the admissible space differs by less than this.
 constexpr double projection_tolerance = 1e-5;
 
-double size_of(const BlockModel& block) {
-  return std::cbrt(block.basis().volume());
-}
-
 /// Reduced row echelon form from the last columns on, so that rotations appear in as few rows as can be.
 void reduce_rows(Eigen::MatrixXd& rows) {
   Eigen::Index done = 0;
@@ -46,7 +42,7 @@ std::string text(const Vector3& v, double scale) {
 std::vector<RigidMotion> admissible_rigid_motions(const BlockModel& block) {
   if (block.fixed() || block.space().held()) return {};
   const Eigen::Index p = block.basis().size();
-  const Eigen::MatrixXd all = block.basis().rigid_motions(size_of(block));
+  const Eigen::MatrixXd all = block.basis().rigid_motions(block.size());
   Eigen::MatrixXd outside(3 * p, 6);
   for (int mode = 0; mode < 6; ++mode) {
     const Eigen::MatrixX3d motion = all.col(mode).reshaped(p, 3);
@@ -75,9 +71,9 @@ std::string describe(const std::vector<RigidMotion>& motions, const BlockModel& 
       continue;
     }
     const Vector3 through =
-        block.basis().centroid() + motion.rotation.cross(motion.translation) * size_of(block) / (turn * turn);
+        block.basis().centroid() + motion.rotation.cross(motion.translation) * block.size() / (turn * turn);
     result +=
-        "rotation about " + text(motion.rotation / turn, 1.0) + " through " + text(through, size_of(block));
+        "rotation about " + text(motion.rotation / turn, 1.0) + " through " + text(through, block.size());
   }
   return result;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/exact/rounded_functions.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -14,7 +16,8 @@ constexpr int most_cells = 1000;
 /// Places 0 to 1, ends included, at which a polynomial of this degree is interpolated well.
 std::vector<double> lobatto_places(int order) {
   std::vector<double> places;
-  for (int j = 0; j <= order; ++j) places.push_back(0.5 - 0.5 * std::cos(std::numbers::pi * j / order));
+  for (int j = 0; j <= order; ++j)
+    places.push_back(0.5 - 0.5 * correctly_rounded::cos(std::numbers::pi * j / order));
   return places;
 }
 

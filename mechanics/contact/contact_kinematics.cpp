@@ -1,7 +1,5 @@
 #include "mechanics/contact/contact_kinematics.hpp"
 
-#include <cmath>
-
 #include "geometry/index.hpp"
 #include "geometry/subfaces/view_frame.hpp"
 
@@ -17,7 +15,7 @@ int corrections_of(const BlockModel& model) {
 
 /// Size of a correction that is within rounding error, m.
 double rounding_of(const BlockModel& model) {
-  return 1e-14 * std::cbrt(model.basis().volume());
+  return 1e-14 * model.size();
 }
 
 struct Foot {

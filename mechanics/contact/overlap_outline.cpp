@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "mechanics/basis/plane_cross.hpp"
 
@@ -34,7 +35,7 @@ double angle_at(const Corners& polygon, const Eigen::Vector2d& point, double tol
     if ((polygon[k] - point).norm() > tolerance) continue;
     const Eigen::Vector2d next = polygon[(k + 1) % count] - polygon[k];
     const Eigen::Vector2d last = polygon[(k + count - 1) % count] - polygon[k];
-    return std::atan2(cross(next, last), next.dot(last));
+    return correctly_rounded::atan2(cross(next, last), next.dot(last));
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (distance_to_segment(point, polygon[k], polygon[(k + 1) % count]) <= tolerance)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "geometry/union_find.hpp"
 
@@ -84,7 +85,7 @@ BoundingIsland bounding_island(const std::vector<std::vector<int>>& islands,
       next = std::max(next, error);
     }
   }
-  if (next > 0.0) bounding.gain = std::pow(largest / next, 1.0 / order);
+  if (next > 0.0) bounding.gain = correctly_rounded::pow(largest / next, 1.0 / order);
   return bounding;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "solver/accuracy/goal_distance.hpp"
 
@@ -59,7 +60,7 @@ std::optional<double> ratio_of_changes(std::span<const AccuracyRound> rounds, st
 
 /// The rest of an error that falls like n^-exponent, over its change from order m to n.
 double rest_over_change(int m, int n, double exponent) {
-  return 1.0 / (std::pow(static_cast<double>(n) / m, exponent) - 1.0);
+  return 1.0 / (correctly_rounded::pow(static_cast<double>(n) / m, exponent) - 1.0);
 }
 
 /// Highest chosen one; 0: unknown.
@@ -110,9 +111,9 @@ double slow_error_at(const std::vector<AccuracyRound>& all, std::size_t index, c
   const int n = highest_order(rounds[last]), m = highest_order(rounds[last - 2]);
   const int before = highest_order(rounds[last - 4]);
   if (n < least_slow_order || m >= n || before >= m || before < 1) return 0.0;
-  const auto error = [](int k) { return std::pow(k, -fast_exponent); };
+  const auto error = [](int k) { return correctly_rounded::pow(k, -fast_exponent); };
   if (*ratio < (error(m) - error(n)) / (error(before) - error(m))) return 0.0;
-  const double fall = std::pow(static_cast<double>(n) / order, corner_exponent);
+  const double fall = correctly_rounded::pow(static_cast<double>(n) / order, corner_exponent);
   return fall * relative_to(distance_to_limit(rounds, index), goal);
 }
 

@@ -1,7 +1,6 @@
 #include "solver/contact/contact_finder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -49,6 +48,7 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
                              std::set<PairKey> left_out, std::vector<bool> absent, ContactObserver observer,
                              const std::optional<Eigen::Matrix3d>& axes)
     : settings_(settings),
+      contact_angle_(settings.search.contact_angle),
       observer_(std::move(observer)),
       axes_(axes ? *axes : axes_of(blocks)),
       absent_(std::move(absent)),
@@ -272,7 +272,7 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
       if (!hulls[at(block)]) hulls[at(block)].emplace(placed(block));
   }
   counts_.convex_pairs += open.size();
-  std::vector<std::optional<EntranceName>> converged(open.size());
+  std::vector<std::optional<EntranceName>> decided(open.size());
   parallel_for(settings_.threads, open.size(), [&](std::size_t k) {
     const PairKey& blocks = searched[open[k]].blocks;
     PairContacts& contacts = searched[open[k]].contacts;
@@ -283,10 +283,10 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
     history.depth =
         settings_.search.passing_share * settings_.contact_distance + 2.0 * before.depth_to_search();
     history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
-    converged[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
+    decided[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
   });
   for (std::size_t k = 0; k < open.size(); ++k)
-    if (converged[k]) entrances.emplace(searched[open[k]].blocks, *converged[k]);
+    if (decided[k]) entrances.emplace(searched[open[k]].blocks, *decided[k]);
   std::set<PairKey> kept;
   for (std::size_t n = 0; n < near_.size(); ++n)
     if (known[n] != nullptr) kept.insert(near_[n].blocks);
@@ -300,7 +300,7 @@ ContactLimits ContactFinder::limits_of(const NearPair& pair, const PairHistories
   return {pair.reach,
           std::min({settings_.contact_distance, thickness_[at(a)], thickness_[at(b)]}) +
               2.0 * history_of(histories, pair.blocks).depth_to_search(),
-          settings_.search.contact_angle, thickness_[at(a)] + thickness_[at(b)]};
+          contact_angle_, thickness_[at(a)] + thickness_[at(b)]};
 }
 
 std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states,

@@ -204,6 +204,7 @@ class ContactFinder {
   }
 
   SimulationSettings settings_;
+  ContactAngle contact_angle_;
   ContactObserver observer_;
   Eigen::Matrix3d axes_;  ///< of the boxes below
   std::vector<bool> absent_;

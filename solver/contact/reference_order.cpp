@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -28,7 +29,7 @@ ReferenceOrder::ReferenceOrder(const std::vector<PlacedVolume>& blocks, const Ve
     const Vector3 from_middle = block.centroid - middle;
     heights_.push_back(up.dot(from_middle));
     distances_.push_back(from_middle.norm());
-    farthest = std::max({farthest, distances_.back(), std::cbrt(block.volume)});
+    farthest = std::max({farthest, distances_.back(), correctly_rounded::cbrt(block.volume)});
   }
   constexpr double rounding = 1e-9;
   rounding_ = rounding * farthest;

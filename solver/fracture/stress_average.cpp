@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/boxes/box.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "geometry/lexicographic.hpp"
 #include "geometry/solid/solid_location.hpp"
@@ -146,8 +147,9 @@ Vector3 tidy_normal(Vector3 normal) {
 StressProbes stress_probes(const BlockModel& block, double least_size) {
   const Polyhedron& solid = block.solid();
   const Inside inside(solid);
-  const double spacing = std::max({0.5 * least_size, std::cbrt(2.0 * solid.volume() / most_probes),
-                                   std::sqrt(2.0 * area_of(solid) / most_probes)});
+  const double spacing =
+      std::max({0.5 * least_size, correctly_rounded::cbrt(2.0 * solid.volume() / most_probes),
+                std::sqrt(2.0 * area_of(solid) / most_probes)});
   std::vector<Vector3> places = {block.basis().centroid()};
   if (!inside(places.front())) places.clear();
   add_inner_points(solid, spacing, inside, places);

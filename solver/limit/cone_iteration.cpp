@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -86,7 +87,7 @@ ConeAnswer ConeIteration::run() {
     const double left = std::max(gap_after(ahead), 0.0) / std::max(gap_, std::numeric_limits<double>::min());
     // After a shortened step the iterate is near the boundary: return to the centre first.
     const bool centres = length < short_step;
-    direction(std::clamp(std::pow(left, 3), centres ? centring_when_short : least_centring, 1.0), !centres);
+    direction(std::clamp(left * left * left, centres ? centring_when_short : least_centring, 1.0), !centres);
     length = this->length(to_the_boundary);
     if (!(length > least_step)) break;
     advance(length);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "mechanics/basis/plane_cross.hpp"
 
@@ -40,7 +41,8 @@ double distance_over_triangle(const Eigen::Vector2d& start, const Eigen::Vector2
   const double height = cross(start, along);
   if (height == 0.0) return 0.0;
   const auto up_to = [&](double place) {
-    return place * std::hypot(place, height) + height * height * std::asinh(place / std::abs(height));
+    return place * correctly_rounded::hypot(place, height) +
+           height * height * correctly_rounded::asinh(place / std::abs(height));
   };
   return height / 6.0 * (up_to(along.dot(end)) - up_to(along.dot(start)));
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -34,7 +36,7 @@ class Bracketing {
         if (++unknown > most_unknown) return;
         // Rounding differs at a factor beside it.
         next = within(next * (1.0 - unknown_offset * search_.tolerance *
-                                        std::pow(unknown_ratio_of_offsets, unknown - 1)));
+                                        correctly_rounded::pow(unknown_ratio_of_offsets, unknown - 1)));
         continue;
       }
       note(next, std::move(*trial));
@@ -78,7 +80,7 @@ class Bracketing {
   /// Factor beside the estimate of the last motion, on the side that has not been tried. Estimates that do not narrow
   /// the bracket are not used. @return 0: none
   double estimated_factor(double least, double high) {
-    const double width = std::log(high / least);
+    const double width = correctly_rounded::log(high / least);
     const bool helps = width < narrowing * std::exchange(width_, width);
     if (!helps && std::exchange(estimated_last_, false)) return 0.0;
     const double below = estimate_ * (1.0 - below_estimate * search_.tolerance),

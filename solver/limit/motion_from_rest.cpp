@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "solver/limit/released_motion.hpp"
 
@@ -74,7 +74,8 @@ class Sweeps {
     if (pair.bodies[0] >= 0) p.compliance += point.first * point.first.transpose();
     if (pair.bodies[1] >= 0) p.compliance += point.second * point.second.transpose();
     const Matrix3d& w = p.compliance;
-    const double largest = 0.5 * (w(1, 1) + w(2, 2) + std::hypot(w(1, 1) - w(2, 2), 2.0 * w(1, 2)));
+    const double largest =
+        0.5 * (w(1, 1) + w(2, 2) + correctly_rounded::hypot(w(1, 1) - w(2, 2), 2.0 * w(1, 2)));
     // A body may have no motion along the normal or the tangents.
     p.normal_step = w(0, 0) > 0.0 ? 1.0 / w(0, 0) : 0.0;
     p.tangent_step = largest > 0.0 ? 1.0 / largest : 0.0;

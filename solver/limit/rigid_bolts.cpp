@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "solver/bolts/step_bolt.hpp"
 
@@ -81,7 +82,7 @@ class Bars {
     double compliance = 0.0;
     for (const std::size_t g : {group, group + 1}) {
       const double root = std::sqrt(law().axial_stiffness * law().bond_stiffness);
-      compliance += 1.0 / (root * std::tanh(grout_length(g) * root / law().axial_stiffness));
+      compliance += 1.0 / (root * correctly_rounded::tanh(grout_length(g) * root / law().axial_stiffness));
     }
     return 1.0 / compliance;
   }
@@ -276,7 +277,7 @@ std::vector<BarForce> bar_forces(const RigidModel& model, const std::vector<Eige
     const bool second = !forces.empty() && forces.back().of.bolt == bar.bolt &&
                         forces.back().of.piece == bar.piece && forces.back().of.part == BarPart::dowel;
     if (second) {
-      forces.back().force = std::hypot(forces.back().force, one.force);
+      forces.back().force = correctly_rounded::hypot(forces.back().force, one.force);
     } else {
       forces.push_back(one);
     }

@@ -1,7 +1,6 @@
 #include "solver/limit/rigid_model.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -15,7 +14,6 @@
 #include "solver/limit/rigid_bolts.hpp"
 #include "solver/limit/rigid_points.hpp"
 #include "solver/limit/rough_friction.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -69,7 +67,7 @@ Matrix6 held_by_supports(const BlockModel& block, const Vector3& about, double s
 /// Rigid motions allowed by all supports of a body, as columns.
 Eigen::MatrixXd motions_left(const BlockSystem& system, const RigidBody& body) {
   double size = 0.0;
-  for (const int k : body.blocks) size = std::max(size, block_size(system.blocks()[at(k)]));
+  for (const int k : body.blocks) size = std::max(size, system.blocks()[at(k)].size());
   Matrix6 held = Matrix6::Zero();
   for (const int k : body.blocks) {
     const BlockModel& block = system.blocks()[at(k)];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -105,8 +106,10 @@ std::vector<double> linear_pressure(const FacesInContact& faces) {
   };
   const auto value = [&](const Eigen::Vector3d& of) {
     double sum = -wanted.dot(of);
-    for (const JointPart& part : faces.parts)
-      sum += 0.5 * part.area / area * std::pow(std::max(0.0, of.dot(at(part))), 2);
+    for (const JointPart& part : faces.parts) {
+      const double pressure = std::max(0.0, of.dot(at(part)));
+      sum += 0.5 * part.area / area * pressure * pressure;
+    }
     return sum;
   };
   for (int n = 0; n < most_pressure_iterations; ++n) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "solver/limit/released_motion.hpp"
 
 namespace ashlar {
@@ -45,7 +46,7 @@ class Growth {
  public:
   void add(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
     const double last = growth_, last_change = change_;
-    growth_ = std::log(after.norm() / before.norm());
+    growth_ = correctly_rounded::log(after.norm() / before.norm());
     turned_ = (after / after.norm() - before / before.norm()).norm();
     change_ = growth_ - last;
     // Geometrically decreasing changes have a finite sum.
@@ -57,7 +58,9 @@ class Growth {
   }
 
   /// True if slip comes to rest, whatever its direction.
-  [[nodiscard]] bool ends() const { return decays_ >= fast_decays || total_ < std::log(no_slip); }
+  [[nodiscard]] bool ends() const {
+    return decays_ >= fast_decays || total_ < correctly_rounded::log(no_slip);
+  }
   [[nodiscard]] double limit() const { return limit_; }
   [[nodiscard]] bool converged(double margin) const {
     if (count_ < 3) return false;

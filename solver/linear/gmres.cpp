@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/exact/rounded_functions.hpp"
+
 namespace ashlar {
 
 KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& times,
@@ -40,7 +42,7 @@ KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
     const double length = std::sqrt(std::max(0.0, rest[used + 1] - rest.head(used + 1).squaredNorm()));
     upper.col(used).head(used + 1) = along + rest.head(used + 1);
     upper(used + 1, used) = length;
-    const double whole = std::hypot(along.norm(), length);
+    const double whole = correctly_rounded::hypot(along.norm(), length);
     for (int k = 0; k < used; ++k)
       upper.col(used).applyOnTheLeft(k, k + 1, rotations[static_cast<std::size_t>(k)].adjoint());
     Eigen::JacobiRotation<double> rotation;

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/exact/axis_rotation.hpp"
 #include "geometry/index.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -17,12 +17,6 @@ constexpr double mechanism_share = 0.01;
 /// Squared motion over the gap of its programme: loads cannot be balanced. Smaller values mistake the error of a programme
 /// for motion, larger ones leave more ends of paths undetermined.
 constexpr double certain_motion_over_gap = 10.0;
-
-Eigen::Matrix3d turn_of(const Vector3& rotation) {
-  const double angle = rotation.norm();
-  if (!(angle > 0.0)) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, Vector3(rotation / angle)).toRotationMatrix();
-}
 
 /// Joints with friction only and face-face contact up to the largest angle of the search.
 BlockSystem dry_system(const BlockSystem& system, double reach) {
@@ -119,7 +113,7 @@ void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocit
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const RigidBody& body = model.bodies[b];
     const RigidMotionOf motion = motion_of(body, travel[b]);
-    const Eigen::Matrix3d turn = turn_of(motion.rotation);
+    const Eigen::Matrix3d turn = rotation_matrix(motion.rotation);
     for (const int k : body.blocks) {
       Eigen::MatrixX3d& position = placement.states[at(k)].position;
       position = mapped(system_.blocks()[at(k)], position, turn,
@@ -147,7 +141,7 @@ RigidModel midway(const RigidModel& model, const ConeProgram& program,
     for (const int body : pair.bodies)
       if (body >= 0 && at(body) < model.bodies.size())
         rotation += 0.5 * motion_of(model.bodies[at(body)], travel[at(body)]).rotation;
-    const Eigen::Matrix3d turn = turn_of(0.5 * rotation);
+    const Eigen::Matrix3d turn = rotation_matrix(0.5 * rotation);
     for (std::size_t k = pair.begin; k < pair.end; ++k) {
       const ConePoint& point = program.points()[k];
       Eigen::Vector3d both = Eigen::Vector3d::Zero();
@@ -188,7 +182,7 @@ bool cannot_balance(ConeProgram& program, const std::vector<BodyVelocity>& load)
 double smallest_size(const BlockSystem& system, const RigidModel& model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const RigidBody& body : model.bodies)
-    for (const int block : body.blocks) smallest = std::min(smallest, block_size(system.blocks()[at(block)]));
+    for (const int block : body.blocks) smallest = std::min(smallest, system.blocks()[at(block)].size());
   return smallest;
 }
 

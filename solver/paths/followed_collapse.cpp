@@ -1,13 +1,11 @@
 #include "solver/paths/followed_collapse.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "geometry/index.hpp"
 #include "solver/paths/followed_blocks.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -97,7 +95,7 @@ class CollapsePath {
       const Eigen::MatrixX3d displacement = placement_.states[k].position - scene_.states[k].position;
       path_.displacements[k] =
           Vector3(displacement.transpose() * block.basis().values(block.basis().centroid())).norm() /
-          block_size(block);
+          block.size();
     }
   }
 
@@ -116,7 +114,7 @@ Collapse follow_collapse(const PlacedScene& scene, double far) {
   for (std::size_t k = 0; k < scene.system.blocks().size(); ++k) {
     const BlockModel& block = scene.system.blocks()[k];
     if (block.fixed() || !scene.system.present(static_cast<int>(k))) continue;
-    const double size = block_size(block);
+    const double size = block.size();
     smallest = smallest > 0.0 ? std::min(smallest, size) : size;
   }
   return smallest > 0.0 ? CollapsePath(scene, smallest).follow(far) : Collapse{CollapseEnd::rests, {}, 0};

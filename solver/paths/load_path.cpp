@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -40,7 +39,7 @@ std::vector<double> displacements_of_rest(const BlockSystem& system, const Rigid
   for (const RigidBody& body : model.bodies) {
     double least = std::numeric_limits<double>::infinity();
     for (const int block : body.blocks)
-      least = std::min(least, allowed_displacement_share * block_size(system.blocks()[at(block)]));
+      least = std::min(least, allowed_displacement_share * system.blocks()[at(block)].size());
     allowed.push_back(least);
   }
   return allowed;

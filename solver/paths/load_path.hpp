@@ -24,7 +24,7 @@
 
 namespace ashlar {
 
-/// Allowed displacement over the size of a block (block_size()), if none is given.
+/// Allowed displacement over BlockModel::size(), if none is given.
 inline constexpr double allowed_displacement_share = 0.01;
 
 /// Displacements from which on blocks are not at rest where they are placed, by body, m; infinite: a body without blocks.

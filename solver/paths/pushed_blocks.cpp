@@ -1,10 +1,10 @@
 #include "solver/paths/pushed_blocks.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "mechanics/contact/contact_kinematics.hpp"
 #include "solver/limit/released_motion.hpp"
@@ -39,9 +39,12 @@ double sum_of_norms(const std::vector<BodyVelocity>& loads) {
 /// @param rotation rad
 Vector3 travel_along_screw(const Vector3& translation, const Vector3& rotation) {
   const double angle = rotation.norm();
-  const double half = 0.5 * angle;
-  const double first = angle < small_screw ? 0.5 : 2.0 * std::pow(std::sin(half) / angle, 2);
-  const double second = angle < small_screw ? 1.0 / 6.0 : (angle - std::sin(angle)) / std::pow(angle, 3);
+  double first = 0.5, second = 1.0 / 6.0;
+  if (angle >= small_screw) {
+    const double chord = correctly_rounded::sin(0.5 * angle) / angle;
+    first = 2.0 * chord * chord;
+    second = (angle - correctly_rounded::sin(angle)) / (angle * angle * angle);
+  }
   const Vector3 across = rotation.cross(translation);
   return translation + first * across + second * rotation.cross(across);
 }
@@ -64,7 +67,7 @@ std::vector<BodyVelocity> along_screws(const RigidModel& model, const std::vecto
   return travel;
 }
 
-/// Largest opening of points under pressure in a motion, m. @param way m
+/// Largest opening of points under pressure in a motion, m. @param travel m
 double opening_of_push(const PushedPlace& from, const std::vector<BodyVelocity>& travel,
                        const std::vector<Eigen::Vector3d>& force) {
   double largest = 0.0, opened = 0.0;
@@ -153,7 +156,7 @@ std::optional<PushedPlace> PushedBlocks::start() {
   // A gap may be shorter than a step.
   for (double length = lengths_.longest_step; length >= lengths_.closed; length *= shorter_first_step) {
     rate_ = pushed;
-    if (pushed_by(placed, length)) return converged(std::move(placed.placement), lengths_.reach);
+    if (pushed_by(placed, length)) return equilibrium_from(std::move(placed.placement), lengths_.reach);
   }
   return std::nullopt;
 }
@@ -180,10 +183,10 @@ std::optional<PushedPlace> PushedBlocks::advanced(PushedPlace& from, double leng
   }
   FollowedPlace next = from.placement;
   blocks_.move(from.model, travel, next);
-  return converged(std::move(next), lengths_.farthest - last_travel_, opened);
+  return equilibrium_from(std::move(next), lengths_.farthest - last_travel_, opened);
 }
 
-std::optional<PushedPlace> PushedBlocks::converged(FollowedPlace placement, double travel, double opened) {
+std::optional<PushedPlace> PushedBlocks::equilibrium_from(FollowedPlace placement, double travel, double opened) {
   double gap = opened;
   for (int n = 0; n < most_gap_closings; ++n) {
     PushedPlace place;

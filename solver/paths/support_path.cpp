@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "geometry/exact/axis_rotation.hpp"
 #include "geometry/index.hpp"
 #include "solver/paths/thrust.hpp"
 
@@ -172,7 +173,7 @@ class Path {
   }
 
   /// The motion of a step by the directions at its middle: hinges stay in place to third order of the rotation, while
-  /// they would drift along their joints otherwise. @param way m, by the directions at its start
+  /// they would drift along their joints otherwise. @param travel m, by the directions at its start
   std::vector<BodyVelocity> half_travel(double step, const std::vector<BodyVelocity>& travel) {
     const RigidModel mid = midway(*model_, *program_, travel);
     // If there is none, the first directions are used, and remaining gaps are closed later.
@@ -198,7 +199,7 @@ class Path {
     return end;
   }
 
-  /// Repeats (close) until nothing moves. @param way m, allowed displacement of blocks
+  /// Repeats (close) until nothing moves. @param travel m, allowed displacement of blocks
   StepEnd close(FollowedPlace& placement, double travel) {
     for (int n = 0; n < most_closings; ++n) {
       const RigidModel model = blocks_.model_of(placement);
@@ -224,7 +225,7 @@ class Path {
     return StepEnd::undetermined;
   }
 
-  /// Adds the slip in a motion of joints that transmit force. @param way m
+  /// Adds the slip in a motion of joints that transmit force. @param travel m
   static void note_slip(const RigidModel& model, const ConeProgram& program,
                         const std::vector<BodyVelocity>& travel, const std::vector<Eigen::Vector3d>& force,
                         FollowedPlace& placement) {
@@ -257,8 +258,8 @@ class Path {
       const auto slip = placement_.slip.find(blocks);
       const auto resultant = bearing.find(blocks);
       MovedJoint joint{blocks, resultant != bearing.end() ? resultant->second.place : place,
-                       Eigen::AngleAxisd(relative).angle(),
-                       slip != placement_.slip.end() ? slip->second : 0.0, resultant != bearing.end()};
+                       rotation_vector(relative).norm(), slip != placement_.slip.end() ? slip->second : 0.0,
+                       resultant != bearing.end()};
       if (joint.rotation > least_joint_rotation || joint.slip > lengths_.closed)
         path_.joints.push_back(joint);
     }

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "geometry/boxes/box_pairs.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "geometry/solid/face_axes.hpp"
 #include "solver/shared/ghost_models.hpp"
 #include "solver/shared/shared_bolts.hpp"
 #include "solver/shared/shared_step.hpp"
 #include "solver/state/agreement.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/step/detect/sleeping_islands.hpp"
 #include "solver/step/step_problem.hpp"
 
@@ -129,7 +129,7 @@ std::vector<int> with_tied(const SharedBlocks& shared, std::vector<int> ghosts) 
 /// Margin for an expected motion in a step, m.
 double margin_for(const BlockShare& share, double motion) {
   double size = 0.0;
-  for (const PlacedVolume& place : share.places()) size += std::cbrt(place.volume);
+  for (const PlacedVolume& place : share.places()) size += correctly_rounded::cbrt(place.volume);
   return std::max(least_margin * size / static_cast<double>(share.places().size()), steps_in_margin * motion);
 }
 

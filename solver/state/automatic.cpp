@@ -1,16 +1,11 @@
 #include "solver/state/automatic.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace ashlar {
 
-double block_size(const BlockModel& block) {
-  return std::cbrt(block.basis().volume());
-}
-
 StiffnessSource stiffness_source(const BlockModel& block) {
-  return {block_size(block), block.fixed() ? 0.0 : block.material().young_modulus, block.fixed()};
+  return {block.size(), block.fixed() ? 0.0 : block.material().young_modulus, block.fixed()};
 }
 
 double automatic_normal_stiffness(const StiffnessSource& a, const StiffnessSource& b, bool area_springs,

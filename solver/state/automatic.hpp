@@ -20,9 +20,6 @@ struct AutomaticRatios {
   double penetration_tolerance = 1e-3;  ///< of the contact distance
 };
 
-/// Cube root of the volume, m.
-[[nodiscard]] double block_size(const BlockModel& block);
-
 /// Properties of a block that determine an automatic stiffness.
 struct StiffnessSource {
   double size = 0.0;           ///< block_size, m

@@ -6,7 +6,6 @@
 
 #include "geometry/index.hpp"
 #include "solver/state/agreement.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/state/free_bodies.hpp"
 
 namespace ashlar {
@@ -163,7 +162,7 @@ bool BlockSystem::any_incremental() const {
 }
 
 double BlockSystem::smaller_size(const BlockPair& blocks) const {
-  return std::min(block_size(blocks_[at(blocks[0])]), block_size(blocks_[at(blocks[1])]));
+  return std::min(blocks_[at(blocks[0])].size(), blocks_[at(blocks[1])].size());
 }
 
 int BlockSystem::unknowns() const {

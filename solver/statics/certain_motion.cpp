@@ -1,13 +1,11 @@
 #include "solver/statics/certain_motion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 
 #include "geometry/index.hpp"
 #include "solver/state/agreement.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 #include "solver/step/island/bolts_of_run.hpp"
 
@@ -36,7 +34,7 @@ class MotionExtrapolation {
     for (std::size_t k = 0; k < goes_.size(); ++k) {
       if (!system.moving()[k]) continue;
       const BodyStep& body = problem.bodies[k];
-      displacements_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
+      displacements_[k] = mean_motion(*body.model, body.motion()) / body.model->size();
       goes_[k] = system.owns(static_cast<int>(k)) && !held[k] && residual_is_constant(k);
     }
     exclude_bolted();
@@ -61,7 +59,7 @@ class MotionExtrapolation {
     }
   }
 
-  /// As StepExchange::way_beyond. Collective.
+  /// As StepExchange::travel_beyond. Collective.
   [[nodiscard]] double travel_beyond(const ContactFinder& finder) const {
     const double share = path_factor();
     return system_.exchange().travel_beyond(system_, finder, [&](int block) {
@@ -163,7 +161,7 @@ class MotionExtrapolation {
     double travel = std::numeric_limits<double>::infinity();
     for (const int block : {pair.a(), pair.b()})
       if (goes(block))
-        travel = std::min(travel, displacements_[at(block)] * block_size(system_.blocks()[at(block)]));
+        travel = std::min(travel, displacements_[at(block)] * system_.blocks()[at(block)].size());
     const std::vector<double> gaps =
         pair.gaps(problem_.bodies[at(pair.a())].change, problem_.bodies[at(pair.b())].change);
     const Eigen::Matrix3Xd moved = pair.motion(change(pair.a()), change(pair.b()));

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "solver/state/agreement.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/statics/static_verdict.hpp"
 #include "solver/step/solve/joined_island.hpp"
 #include "solver/stopwatch.hpp"
@@ -25,8 +25,7 @@ constexpr double opened_by = 4.0;  // times the mean displacement of blocks: lar
 
 /// Factor on the stiffness of a block that limits its strain under its forces to strain_share.
 double stiffening(const BodyStep& body) {
-  const double stress =
-      body.largest_force / std::sqrt(body.model->basis().volume()) * block_size(*body.model);
+  const double stress = body.largest_force / std::sqrt(body.model->basis().volume()) * body.model->size();
   return stress / (strain_share * least_travel * body.model->material().young_modulus);
 }
 
@@ -77,7 +76,7 @@ Onset prepare(const BlockSystem& system, const RunState& state, const Island& is
   Onset onset;
   for (const int k : part.own()) {
     onset.farthest = std::max(onset.farthest, displacement_since_onset(system, state, k));
-    onset.smallest = std::min(onset.smallest, block_size(system.blocks()[at(k)]));
+    onset.smallest = std::min(onset.smallest, system.blocks()[at(k)].size());
     onset.stiffer = std::max(onset.stiffer, stiffening(problem.bodies[at(k)]));
   }
   onset = {part.least(onset.smallest), part.most(onset.stiffer), part.most(onset.farthest)};
@@ -115,7 +114,7 @@ bool take_over(const BlockSystem& system, const PartOfIsland& island,
   for (std::size_t n = 0; n < island.own().size(); ++n) {
     const int k = island.own()[n];
     const BlockModel& block = system.blocks()[at(k)];
-    const double weight = std::pow(block.material().density, 2);
+    const double weight = block.material().density * block.material().density;
     along += weight * rigid_ones[n].cwiseProduct(accelerations[at(k)]).sum();
     own += weight * rigid_ones[n].squaredNorm();
     given += weight * accelerations[at(k)].squaredNorm();

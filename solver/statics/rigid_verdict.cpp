@@ -10,7 +10,6 @@
 #include "solver/limit/limit_analysis.hpp"
 #include "solver/paths/followed_collapse.hpp"
 #include "solver/paths/load_path.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -21,8 +20,7 @@ bool is_where_placed(const BlockSystem& system, const RunState& state) {
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
     const BlockModel& block = system.blocks()[k];
     if (!system.moving()[k]) continue;
-    if (mean_motion(block, state.states[k].position - block.initial_state().position) >
-        share * block_size(block))
+    if (mean_motion(block, state.states[k].position - block.initial_state().position) > share * block.size())
       return false;
   }
   return true;

@@ -5,11 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "mechanics/basis/field_moments.hpp"
 #include "solver/archived_geometry.hpp"
 #include "solver/state/agreement.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/statics/rigid_onset.hpp"
 
 namespace ashlar {
@@ -71,7 +71,7 @@ double largest_motion(const Island& island, const std::vector<BodyStep>& bodies)
   for (const int k : island.bodies) {
     const BodyStep& body = bodies[at(k)];
     const double motion = mean_motion(*body.model, body.model->space().expand(body.change));
-    most = std::max(most, motion / block_size(*body.model));
+    most = std::max(most, motion / body.model->size());
   }
   return most;
 }
@@ -141,7 +141,7 @@ bool note_balance(const BlockSystem& system, RunState& state, const StepProblem&
       state.statics.progress.forces[k] = lacking;
     }
     state.statics.progress.displacements[k] =
-        mean_motion(block, position - state.statics.progress.positions[k]) / block_size(block);
+        mean_motion(block, position - state.statics.progress.positions[k]) / block.size();
     if (state.statics.progress.displacements[k] > system.settings().statics.displacement_limit && !held[k])
       state.statics.moving = true;
   }
@@ -159,8 +159,8 @@ bool repeats_motion(const BlockSystem& system, RunState& state, const StepProble
            lacking_force(system, problem, k) <= repeating_share * body.largest_force + body.roundoff_force;
     if (cycle.positions.empty()) continue;
     const Eigen::MatrixX3d position = state.states[k].position + body.motion();
-    travel = std::max(travel, mean_motion(system.blocks()[k], position - cycle.positions[k]) /
-                                  block_size(system.blocks()[k]));
+    travel = std::max(
+        travel, mean_motion(system.blocks()[k], position - cycle.positions[k]) / system.blocks()[k].size());
   }
   if (!all_of_run(system, calm)) {
     cycle = {};
@@ -220,7 +220,7 @@ void note_accelerations(const BlockSystem& system, RunState& state, IslandSolver
     double lacking = 0.0;
     for (std::size_t k = 0; k < system.blocks().size(); ++k)
       if (system.owns(static_cast<int>(k)))
-        lacking += std::pow(system.blocks()[k].material().density * accelerations[k].norm(), 2);
+        lacking += (system.blocks()[k].material().density * accelerations[k]).squaredNorm();
     lacking = sum_of_run(system, lacking);
     if (!(lacking < state.statics.onset.least_residual)) return;
     state.statics.onset.least_residual = lacking;

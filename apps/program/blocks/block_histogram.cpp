@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -23,7 +25,7 @@ double bound(int number) {
 }
 
 int class_of(double volume) {
-  int number = 3 * static_cast<int>(std::floor(std::log10(volume))) - 1;
+  int number = 3 * static_cast<int>(std::floor(correctly_rounded::log10(volume))) - 1;
   while (bound(number + 1) <= volume) ++number;
   return number;
 }

@@ -7,6 +7,7 @@
 #include "apps/scene/check/initial_overlap.hpp"
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/contacts/contact_report.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -81,8 +82,9 @@ void BlockReport::add_borders_of_pieces() {
 void BlockReport::add_contacts() {
   std::vector<Box> boxes;
   for (std::size_t k = 0; k < loaded_->solids.size(); ++k)
-    boxes.push_back(box_of(loaded_->solids[k].mesh().points)
-                        .grown(allowed_initial_overlap * std::cbrt(loaded_->solids[k].volume())));
+    boxes.push_back(
+        box_of(loaded_->solids[k].mesh().points)
+            .grown(allowed_initial_overlap * correctly_rounded::cbrt(loaded_->solids[k].volume())));
   for (const auto& [first, second] : meeting_boxes(boxes)) {
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
     const bool same = is_piece(*loaded_, a) && is_piece(*loaded_, b) &&
@@ -93,7 +95,8 @@ void BlockReport::add_contacts() {
 
 void BlockReport::add_contact(std::size_t a, std::size_t b) {
   const Polyhedron &first = loaded_->solids[a], &second = loaded_->solids[b];
-  const double distance = allowed_initial_overlap * std::cbrt(std::min(first.volume(), second.volume()));
+  const double distance =
+      allowed_initial_overlap * correctly_rounded::cbrt(std::min(first.volume(), second.volume()));
   const ReportedSolid one(first), other(second);
   const bool convex = one.shape() != nullptr && other.shape() != nullptr;
   const ContactReport report = report_contact(one, other, Resolution{distance, convex ? parallel_sine : 0.0});

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "apps/scene/model/joint_table.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "mechanics/supports/face_selection.hpp"
 
@@ -126,7 +125,7 @@ std::vector<RemovableBlock> find_removable_blocks(const BlockReport& report, con
       tied = tied || law.tied || law.tie;
       Hold& hold = holds[{border.plane, border.below}];
       hold.area += border.area;
-      hold.friction += border.area * std::tan(law.friction_angle * std::numbers::pi / 180.0);
+      hold.friction += border.area * correctly_rounded::tan_of_degrees(law.friction_angle);
     }
     const BlockSolid block = report.solid(k);
     if (tied || !has_free_face(report, k, holds, border_normals(report.loaded().solids[k], borders)))

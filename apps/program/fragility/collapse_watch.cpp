@@ -7,7 +7,6 @@
 
 #include "apps/scene/check/water_checks.hpp"
 #include "geometry/index.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -35,7 +34,7 @@ CollapseWatch::CollapseWatch(const Scene& scene, const Simulation& simulation) {
     block.block = static_cast<int>(k);
     block.point = model.basis().centroid();
     block.up = up_of(scene);
-    largest = std::max(largest, block_size(model));
+    largest = std::max(largest, model.size());
   }
   constexpr double times = 5.0;
   const double gravity = simulation.system().settings().largest_gravity();

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "apps/results/text/csv_text.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -92,8 +93,9 @@ double quantile(const Distribution& distribution, double share) {
       return math::quantile(math::normal(p[0], p[1]), share);
     case Kind::lognormal: {
       // Variance of the logarithm.
-      const double square = std::log1p((p[1] / p[0]) * (p[1] / p[0]));
-      return math::quantile(math::lognormal(std::log(p[0]) - 0.5 * square, std::sqrt(square)), share);
+      const double square = correctly_rounded::log1p((p[1] / p[0]) * (p[1] / p[0]));
+      return math::quantile(math::lognormal(correctly_rounded::log(p[0]) - 0.5 * square, std::sqrt(square)),
+                            share);
     }
     case Kind::uniform:
       return math::quantile(math::uniform(p[0], p[1]), share);

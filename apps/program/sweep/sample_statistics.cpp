@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "apps/results/text/csv_text.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -23,7 +24,7 @@ std::size_t bins_for(const std::vector<double>& sorted) {
   constexpr double fewest = 5.0, most = 60.0;
   const std::size_t count = sorted.size();
   const double quartiles = sorted[(3 * count) / 4] - sorted[count / 4];
-  const double width = 2.0 * quartiles / std::cbrt(static_cast<double>(count));
+  const double width = 2.0 * quartiles / correctly_rounded::cbrt(static_cast<double>(count));
   const double bins = width > 0.0 ? std::ceil((sorted.back() - sorted.front()) / width) : fewest;
   return static_cast<std::size_t>(std::clamp(bins, fewest, most));
 }

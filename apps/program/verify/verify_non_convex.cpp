@@ -13,7 +13,6 @@
 #include "apps/program/verify/verification_contacts.hpp"
 #include "geometry/mesh/polygon_triangulation.hpp"
 #include "geometry/solid/shapes.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -177,7 +176,7 @@ double land(Simulation& simulation, double time) {
     take_step(simulation, time);
     most = std::max(most, simulation.report().depth - simulation.report().penetration);
   }
-  return most / block_size(simulation.blocks().back());
+  return most / simulation.blocks().back().size();
 }
 
 /// Blocks released over valleys of one mesh do not sink, and move as on convex parts of the same shape. Places are
@@ -199,8 +198,8 @@ std::vector<VerificationCheck> non_convex_ground_case(const Placement& placement
         Simulation on_pieces = landing(ground.pieces, placed_block, true, placement);
         deepest = std::max({deepest, land(with_springs, time), land(on_whole, time), land(on_pieces, time)});
         const int last = static_cast<int>(on_pieces.blocks().size()) - 1;
-        apart = std::max(apart, (centroid(on_whole, 1) - centroid(on_pieces, last)).norm() /
-                                    block_size(on_whole.blocks()[1]));
+        apart = std::max(
+            apart, (centroid(on_whole, 1) - centroid(on_pieces, last)).norm() / on_whole.blocks()[1].size());
       }
       checks.push_back(
           check_absolute(fmt::format("{} on {}: depth beyond contacts, of its size", name, ground.name),

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/state/automatic.hpp"
-
 namespace ashlar {
 
 double VoussoirArch::add_to(ContactScene& scene, const Material& material,
@@ -25,7 +23,7 @@ double VoussoirArch::add_to(ContactScene& scene, const Material& material,
     joint(k + 1, points);
     const int order = orders.empty() ? 1 : orders.at(static_cast<std::size_t>(k));
     BlockDefinition block = define_block(hull_of(points), material, order);
-    if (k == 0) size = block_size(BlockModel(block));
+    if (k == 0) size = BlockModel(block).size();
     scene.add(std::move(block));
   }
   for (const double side : {-mean_radius, mean_radius})

@@ -10,7 +10,6 @@
 
 #include "apps/results/folder/run_status.hpp"
 #include "geometry/index.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -60,8 +59,7 @@ void FallRecord::note(const Simulation& simulation) {
   if (down.isZero(0.0)) return;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     if (!may_move(simulation, k) || simulation.blocks()[k].incremental() != nullptr) continue;
-    if (!(displacement_of(simulation, k).dot(down) > fallen_share * block_size(simulation.blocks()[k])))
-      continue;
+    if (!(displacement_of(simulation, k).dot(down) > fallen_share * simulation.blocks()[k].size())) continue;
     const int block = static_cast<int>(k);
     if (std::any_of(falls.begin(), falls.end(), [&](const BlockFall& fall) { return fall.block == block; }))
       continue;
@@ -101,7 +99,7 @@ MotionVerdict verdict_of(const Simulation& simulation, const FallRecord& record)
     ++verdict.all;
     const BlockModel& block = simulation.blocks()[k];
     const BlockState& state = simulation.states()[k];
-    const double size = block_size(block);
+    const double size = block.size();
     if (mean_motion(block, state.position - block.initial_state().position) > displaced_share * size)
       ++verdict.displaced;
     const double speed = mean_motion(block, state.velocity);

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "apps/scene/assemble/initial_state.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 
 namespace ashlar {
@@ -31,7 +30,7 @@ std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
     if (block.fixed() || block.driven()) continue;
     const double distance =
         mean_motion(block, simulation.states()[k].position - block.initial_state().position);
-    if (distance > displaced_share * block_size(block)) result.push_back({static_cast<int>(k), distance});
+    if (distance > displaced_share * block.size()) result.push_back({static_cast<int>(k), distance});
   }
   return result;
 }

@@ -1,8 +1,8 @@
 #include "apps/results/frames/bolt_frames.hpp"
 
 #include <array>
-#include <cmath>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "solver/bolts/step_bolt.hpp"
 
 namespace ashlar {
@@ -29,7 +29,7 @@ Dowels dowels_of(const Bolt& bolt, const BoltState& state) {
     for (std::size_t i = 0; i < state.axial.size(); ++i) {
       if (shape.stations()[i].piece != crossing.piece || shape.stations()[i + 1].piece == crossing.piece)
         continue;
-      dowels.force[i] = std::hypot(state.dowels[2 * n], state.dowels[2 * n + 1]);
+      dowels.force[i] = correctly_rounded::hypot(state.dowels[2 * n], state.dowels[2 * n + 1]);
       dowels.yielded[i] = state.reached.sheared[shape.stations().size() + n] != 0;
     }
     ++n;

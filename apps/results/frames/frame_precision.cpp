@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "solver/state/automatic.hpp"
-
 namespace ashlar {
 namespace {
 
@@ -24,7 +22,7 @@ FramePrecision frame_precision(const SceneOutput& output, const std::vector<Bloc
   double farthest = 0.0, smallest = std::numeric_limits<double>::infinity();
   for (const BlockModel& block : blocks) {
     if (block.incremental() != nullptr) return precision;
-    smallest = std::min(smallest, block_size(block));
+    smallest = std::min(smallest, block.size());
     for (const Vector3& point : block.solid().mesh().points)
       farthest = std::max(farthest, (origin + point).cwiseAbs().maxCoeff());
   }

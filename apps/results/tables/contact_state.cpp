@@ -1,10 +1,8 @@
 #include "apps/results/tables/contact_state.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/index.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -84,7 +82,7 @@ std::vector<ContactState> shown_states(const Simulation& simulation, const PairR
     return states;
   const double still =
       still_slip_rate * simulation.report().step *
-      std::min(block_size(simulation.blocks()[at(record.a)]), block_size(simulation.blocks()[at(record.b)]));
+      std::min(simulation.blocks()[at(record.a)].size(), simulation.blocks()[at(record.b)].size());
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (states[k] == ContactState::sliding && !(slip_in_step(simulation, record, record.points[k]) > still))
       states[k] = ContactState::locked;

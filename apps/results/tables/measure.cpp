@@ -7,6 +7,7 @@
 
 #include "apps/results/tables/original_blocks.hpp"
 #include "apps/scene/check/water_checks.hpp"
+#include "geometry/exact/axis_rotation.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -110,8 +111,7 @@ Vector3 measured_turn(const Simulation& simulation, const Measure& measure) {
   const Eigen::Matrix3d gradient = gradient_at(simulation.blocks()[at(measure.block)],
                                                simulation.states()[at(measure.block)], measure.point);
   const Eigen::JacobiSVD<Eigen::Matrix3d> parts(gradient, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(parts.matrixU() * parts.matrixV().transpose()));
-  return turn.angle() * 180.0 / std::numbers::pi * turn.axis();
+  return rotation_vector(parts.matrixU() * parts.matrixV().transpose()) * 180.0 / std::numbers::pi;
 }
 
 Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_t index) {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "geometry/exact/rounded_functions.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -32,8 +34,9 @@ class Oscillator {
   void set_step(double length) {
     if (length == step_) return;
     step_ = length;
-    const double decay = std::exp(-z_ * w_ * length);
-    const double c = decay * std::cos(wd_ * length), s = decay * std::sin(wd_ * length);
+    const double decay = correctly_rounded::exp(-z_ * w_ * length);
+    const double c = decay * correctly_rounded::cos(wd_ * length),
+                 s = decay * correctly_rounded::sin(wd_ * length);
     uu_ = c + z_ * w_ / wd_ * s;
     uv_ = s / wd_;
     vu_ = -w_ * w_ / wd_ * s;
@@ -114,7 +117,7 @@ std::vector<SpectrumPoint> response_spectrum(const std::vector<AccelerationSegme
 std::vector<double> spectrum_periods(double first, double last, int count) {
   std::vector<double> periods = {first};
   for (int k = 1; k + 1 < count; ++k)
-    periods.push_back(first * std::pow(last / first, static_cast<double>(k) / (count - 1)));
+    periods.push_back(first * correctly_rounded::pow(last / first, static_cast<double>(k) / (count - 1)));
   periods.push_back(last);
   return periods;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/scene/model/scene_record.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -48,19 +49,19 @@ CodeShape shape_of_ntc(const SceneSpectrum& spectrum) {
       break;
     case Soil::b:
       ss = std::clamp(1.4 - 0.4 * share, 1.0, 1.2);
-      cc = 1.1 * std::pow(tc, -0.2);
+      cc = 1.1 * correctly_rounded::pow(tc, -0.2);
       break;
     case Soil::c:
       ss = std::clamp(1.7 - 0.6 * share, 1.0, 1.5);
-      cc = 1.05 * std::pow(tc, -0.33);
+      cc = 1.05 * correctly_rounded::pow(tc, -0.33);
       break;
     case Soil::d:
       ss = std::clamp(2.4 - 1.5 * share, 0.9, 1.8);
-      cc = 1.25 * std::pow(tc, -0.5);
+      cc = 1.25 * correctly_rounded::pow(tc, -0.5);
       break;
     case Soil::e:
       ss = std::clamp(2.0 - 1.1 * share, 1.0, 1.6);
-      cc = 1.15 * std::pow(tc, -0.4);
+      cc = 1.15 * correctly_rounded::pow(tc, -0.4);
       break;
   }
   const double corner = cc * tc;

@@ -7,6 +7,7 @@
 
 #include "apps/results/text/csv_text.hpp"
 #include "apps/run/answers/elastic_spectrum.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -64,7 +65,7 @@ KinematicDemand demand_of(const KinematicCapacity& capacity, const ScenePushover
   const double storeys = asked.storeys.value_or(1);
   demand.mode = *asked.height / *asked.building_height;
   demand.participation = 3.0 * storeys / (2.0 * storeys + 1.0);
-  demand.building_period = asked.period.value_or(0.05 * std::pow(*asked.building_height, 0.75));
+  demand.building_period = asked.period.value_or(0.05 * correctly_rounded::pow(*asked.building_height, 0.75));
   const double amplified = demand.mode * demand.participation;
   demand.linear_above = KinematicVerdict{
       capacity.acceleration, spectral_acceleration(spectrum, demand.building_period) * amplified / behaviour};

@@ -12,9 +12,9 @@
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/run/answers/path_run.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
+#include "geometry/exact/axis_rotation.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/limit/rough_friction.hpp"
-#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {
@@ -294,7 +294,7 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
 std::vector<Eigen::MatrixX3d> drawn_motion(const LimitMotion& motion, const Simulation& simulation) {
   double most = 0.0;
   for (const LimitMotion::Block& block : motion.blocks) {
-    const double size = block_size(simulation.blocks()[static_cast<std::size_t>(block.block)]);
+    const double size = simulation.blocks()[static_cast<std::size_t>(block.block)].size();
     most = std::max({most, block.acceleration.norm() / size, block.angular_acceleration.norm()});
   }
   std::vector<Eigen::MatrixX3d> positions;
@@ -305,9 +305,7 @@ std::vector<Eigen::MatrixX3d> drawn_motion(const LimitMotion& motion, const Simu
     Eigen::MatrixX3d& position = positions[static_cast<std::size_t>(block.block)];
     const BlockModel& model = simulation.blocks()[static_cast<std::size_t>(block.block)];
     const Eigen::VectorXd one = constant_function(position.rows(), model.basis().volume());
-    const double angle = share * block.angular_acceleration.norm();
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(angle, block.angular_acceleration.stableNormalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn = rotation_matrix(share * block.angular_acceleration);
     position = (position - one * block.about.transpose()) * turn.transpose() +
                one * (block.about + share * block.acceleration).transpose();
   }

@@ -9,6 +9,7 @@
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/csv_text.hpp"
 #include "apps/run/answers/block_name.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -64,7 +65,7 @@ class CurvePlot {
   static double round_step(double most) {
     constexpr double steps = 6.0;
     const double rough = std::max(most, 1e-12) / steps;
-    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    const double power = correctly_rounded::pow(10.0, std::floor(correctly_rounded::log10(rough)));
     const double share = rough / power;
     return power * (share <= 1.0 ? 1.0 : share <= 2.0 ? 2.0 : share <= 5.0 ? 5.0 : 10.0);
   }

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "apps/run/answers/block_name.hpp"
 #include "apps/scene/assemble/limit_choices.hpp"
 #include "apps/scene/model/block_names.hpp"
 #include "apps/scene/model/nearest_name.hpp"
+#include "geometry/exact/axis_rotation.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -60,7 +59,7 @@ std::vector<Vector3> directions_of(const Scene& scene, const Vector3& gravity) {
   if (first.norm() < upright) first = up.unitOrthogonal();
   std::vector<Vector3> directions;
   for (int k = 0; k < *asked.directions; ++k)
-    directions.emplace_back(Eigen::AngleAxisd(2.0 * std::numbers::pi * k / *asked.directions, up) *
+    directions.emplace_back(rotation_matrix(up, degree_turn(360.0 * k / *asked.directions)) *
                             first.normalized());
   return directions;
 }

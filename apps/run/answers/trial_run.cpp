@@ -4,7 +4,6 @@
 
 #include "apps/run/answers/factor_analysis.hpp"
 #include "solver/paths/load_path.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 
 namespace ashlar {
@@ -48,7 +47,7 @@ bool TrialRun::has_yielded() const {
     if (block.fixed() || block.driven() || !simulation.system().owns(static_cast<int>(k))) continue;
     const Eigen::MatrixX3d& start = rest.empty() ? block.initial_state().position : rest[k];
     const double allowed =
-        scene_.scene.analysis.allowed_displacement.value_or(allowed_displacement_share * block_size(block));
+        scene_.scene.analysis.allowed_displacement.value_or(allowed_displacement_share * block.size());
     if (mean_motion(block, simulation.states()[k].position - start) > allowed) return true;
   }
   return false;

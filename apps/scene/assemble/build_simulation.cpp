@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <limits>
 #include <map>
@@ -24,6 +23,7 @@
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "geometry/boxes/box_pairs.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "solver/bolts/bolted_blocks.hpp"
 #include "solver/state/automatic.hpp"
@@ -161,8 +161,7 @@ class JointLaws {
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
     if (given.tie || given.fracture_energy) set_springs_of_bond(a, b, given, result);
-    const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
-    result.friction = tangent(given.friction_angle);
+    result.friction = correctly_rounded::tan_of_degrees(given.friction_angle);
     result.cohesion = given.cohesion;
     result.tensile_strength = given.tensile_strength;
     if (given.compressive_strength) {
@@ -172,11 +171,13 @@ class JointLaws {
     if (given.roughness) result.roughness = roughness_of(*given.roughness, result.friction);
     // One entry may give the residual and a later one a smaller strength.
     result.residual = {
-        std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),
+        std::min(result.friction, correctly_rounded::tan_of_degrees(
+                                      given.friction_angle_residual.value_or(given.friction_angle))),
         std::min(result.cohesion, given.cohesion_residual.value_or(0.0)),
         std::min(result.tensile_strength, given.tensile_strength_residual.value_or(0.0))};
     // Several entries together must not generate energy either.
-    result.dilation = std::min(tangent(given.dilation_angle), result.residual->friction);
+    result.dilation =
+        std::min(correctly_rounded::tan_of_degrees(given.dilation_angle), result.residual->friction);
     result.damping = given.damping;
     result.restitution = restitution_.of(a, b, given);
     result.fracture = given.fracture_energy.value_or(FractureEnergy{});

@@ -4,8 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "apps/scene/assemble/scene_models.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
 #include "apps/scene/model/scene_names.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "solver/bolts/bolted_blocks.hpp"
 #include "solver/state/automatic.hpp"
@@ -142,7 +141,7 @@ CrackLaw law_of(const SceneCracking& crack, const BlockModel& block, bool augmen
   JointLaw joint;
   joint.normal_stiffness = stiffness(crack.tensile_strength, crack.fracture_energy.tension);
   joint.shear_stiffness = stiffness(crack.cohesion, crack.fracture_energy.shear);
-  joint.friction = std::tan(crack.friction_angle * std::numbers::pi / 180.0);
+  joint.friction = correctly_rounded::tan_of_degrees(crack.friction_angle);
   joint.cohesion = crack.cohesion;
   joint.tensile_strength = crack.tensile_strength;
   joint.rigid = true;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
@@ -12,9 +11,10 @@
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/support_lines.hpp"
 #include "apps/scene/model/model_position.hpp"
-#include "apps/scene/read/exact_turn.hpp"
 #include "apps/scene/read/model_origin.hpp"
 #include "geometry/cutting/cut_plane.hpp"
+#include "geometry/exact/axis_rotation.hpp"
+#include "geometry/exact/degree_turn.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "solver/ground/ground_boundary.hpp"
 
@@ -190,10 +190,11 @@ class ScenePlacer {
       return;
     }
     const SceneRotation given = block.rotate.value_or(SceneRotation{});
-    const double degree = std::numbers::pi / 180.0;
-    const Eigen::AngleAxisd own(given.angle * degree, given.axis.stableNormalized());
-    const Eigen::AngleAxisd all(Eigen::Matrix3d(model_.turn * own.toRotationMatrix()));
-    block.rotate = {all.axis(), all.angle() / degree, given.about};
+    const Vector3 all = rotation_vector(
+        model_.turn * rotation_matrix(given.axis.stableNormalized(), degree_turn(given.angle)));
+    const double angle = all.norm();
+    block.rotate = {angle > 0.0 ? Vector3(all / angle) : Vector3(Vector3::UnitX()),
+                    angle * 180.0 / std::numbers::pi, given.about};
     block.translate = model_.point(given.about + block.translate) - given.about;
   }
 

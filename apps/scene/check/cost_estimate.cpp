@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/boxes/box_pairs.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "mechanics/block/rigid_body.hpp"
 
 namespace ashlar {
@@ -42,7 +43,9 @@ struct TriangleCount {
   double operator()(std::monostate) const { return 0.0; }
   double operator()(const SceneBox&) const { return 12.0; }
   double operator()(const SceneHull& hull) const { return 2.0 * static_cast<double>(hull.points.size()); }
-  double operator()(const SceneSphere& sphere) const { return 20.0 * std::pow(4.0, sphere.subdivisions); }
+  double operator()(const SceneSphere& sphere) const {
+    return 20.0 * correctly_rounded::pow(4.0, sphere.subdivisions);
+  }
   double operator()(const ScenePiece& piece) const {
     return static_cast<double>(piece.solid->mesh().triangles.size());
   }
@@ -58,8 +61,8 @@ struct TriangleCount {
 double division_of(const Scene& scene, const SceneBlock& block) {
   if (block.fixed) return 1.0;
   if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
-    return std::pow(4.0, scene.contact.subdivisions.value_or(2));
-  return block.order < 2 ? 1.0 : std::pow(4.0, scene.contact.subdivisions.value_or(0));
+    return correctly_rounded::pow(4.0, scene.contact.subdivisions.value_or(2));
+  return block.order < 2 ? 1.0 : correctly_rounded::pow(4.0, scene.contact.subdivisions.value_or(0));
 }
 
 double surface_memory(const SceneBlock& block, double triangles, double sub_faces) {
@@ -166,8 +169,9 @@ bool check_cost(const Scene& scene, const CostEstimate& estimate, Diagnostics& d
   if (estimate.memory <= limit) return true;
   const std::string all = fmt::format("scene is too large ({}), up to {} are allowed",
                                       to_string(estimate, scene.block.size()), bytes_in_words(limit));
-  const std::string raised = fmt::format("analysis.memory_limit = {:.0e} (bytes) allows it",
-                                         std::pow(10.0, std::ceil(std::log10(estimate.memory))));
+  const std::string raised =
+      fmt::format("analysis.memory_limit = {:.0e} (bytes) allows it",
+                  correctly_rounded::pow(10.0, std::ceil(correctly_rounded::log10(estimate.memory))));
   // Memory of surfaces, and the block with most sub-faces.
   std::size_t largest = 0;
   double most = -1.0, of_surfaces = 0.0;

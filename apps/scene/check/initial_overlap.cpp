@@ -12,6 +12,7 @@
 #include "geometry/any_solid/solid_depth.hpp"
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/convex/convex_contact.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -156,7 +157,7 @@ struct AllowedDepth {
 };
 
 AllowedDepth allowed_depth(const Scene& scene, const Polyhedron& a, const Polyhedron& b) {
-  const double size = std::cbrt(std::min(a.volume(), b.volume()));
+  const double size = correctly_rounded::cbrt(std::min(a.volume(), b.volume()));
   const double rounding = allowed_initial_overlap * size;
   const double given = scene.contact.allowed_overlap;
   const double most = most_allowed_overlap * size;

@@ -8,6 +8,7 @@
 
 #include "apps/scene/check/initial_overlap.hpp"
 #include "apps/scene/model/support_history.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
@@ -41,7 +42,7 @@ bool check_size(const Scene& scene, std::size_t k, const Polyhedron& solid, Diag
   const Vector3& first = solid.mesh().points.front();
   for (const Vector3& point : solid.mesh().points)
     extent = std::max(extent, (point - first).cwiseAbs().maxCoeff());
-  const double size = std::cbrt(solid.volume());
+  const double size = correctly_rounded::cbrt(solid.volume());
   if (size >= least && extent <= most) return true;
   diagnostics.error(
       scene.places.key(fmt::format("block.{}", k)),
@@ -98,7 +99,7 @@ void check_limits(const ExpandedScene& scene, const std::vector<std::optional<Po
                                   scene.analysis.time_step, shortest));
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (!solids[k]) continue;
-    const double size = std::cbrt(solids[k]->volume());
+    const double size = correctly_rounded::cbrt(solids[k]->volume());
     if (!check_size(scene, k, *solids[k], diagnostics)) continue;
     check_speeds(scene, k, size, diagnostics);
     check_histories(scene, k, size, diagnostics);

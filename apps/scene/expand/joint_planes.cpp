@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "geometry/cutting/cut_error.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -63,8 +64,8 @@ double random_share(std::mt19937_64& random) {
 double random_spacing(const SceneCut& cut, std::mt19937_64& random) {
   const double mean = *cut.spacing, deviation = cut.deviation;
   const auto normal = [&] {
-    const double length = std::sqrt(-2.0 * std::log(random_share(random)));
-    return length * std::cos(2.0 * std::numbers::pi * random_share(random));
+    const double length = std::sqrt(-2.0 * correctly_rounded::log(random_share(random)));
+    return length * correctly_rounded::cos(2.0 * std::numbers::pi * random_share(random));
   };
   switch (cut.law) {
     case SceneCut::Spacing::normal:
@@ -73,25 +74,27 @@ double random_spacing(const SceneCut& cut, std::mt19937_64& random) {
         if (spacing > 0.0) return spacing;
       }
     case SceneCut::Spacing::lognormal: {
-      const double variance = std::log1p(deviation * deviation / (mean * mean));
-      return mean * std::exp(std::sqrt(variance) * normal() - 0.5 * variance);
+      const double variance = correctly_rounded::log1p(deviation * deviation / (mean * mean));
+      return mean * correctly_rounded::exp(std::sqrt(variance) * normal() - 0.5 * variance);
     }
     case SceneCut::Spacing::uniform:
       return mean + std::sqrt(3.0) * deviation * (2.0 * random_share(random) - 1.0);
     case SceneCut::Spacing::exponential:
-      return -mean * std::log(random_share(random));
+      return -mean * correctly_rounded::log(random_share(random));
   }
   return mean;
 }
 
 Vector3 scattered(const Vector3& mean, double fisher, std::mt19937_64& random) {
   const double share = random_share(random);
-  const double cosine =
-      std::clamp(1.0 + std::log(share + (1.0 - share) * std::exp(-2.0 * fisher)) / fisher, -1.0, 1.0);
+  const double cosine = std::clamp(
+      1.0 + correctly_rounded::log(share + (1.0 - share) * correctly_rounded::exp(-2.0 * fisher)) / fisher,
+      -1.0, 1.0);
   const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
   const double turn = 2.0 * std::numbers::pi * random_share(random);
   const Vector3 across = mean.unitOrthogonal();
-  return cosine * mean + sine * (std::cos(turn) * across + std::sin(turn) * mean.cross(across));
+  return cosine * mean +
+         sine * (correctly_rounded::cos(turn) * across + correctly_rounded::sin(turn) * mean.cross(across));
 }
 
 double estimate_planes(const SceneCut& cut, const PlaneRange& range) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,24 +11,14 @@
 #include "apps/scene/json/scene_json.hpp"
 #include "apps/scene/json/value_json.hpp"
 #include "apps/scene/meshes/mesh_import.hpp"
-#include "apps/scene/read/exact_turn.hpp"
+#include "geometry/exact/axis_rotation.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
-#include "geometry/exact/degree_turn.hpp"
 #include "geometry/solid/hull_solid.hpp"
 #include "geometry/solid/shape_loss.hpp"
 #include "geometry/solid/shapes.hpp"
 
 namespace ashlar {
 namespace {
-
-// Rodrigues' rotation matrix: c I + (1 - c) a a' + s [a]x, a the unit axis.
-Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
-  const Vector3 axis = rotation.axis.stableNormalized();
-  const auto [sine, cosine] = degree_turn(rotation.angle);
-  Eigen::Matrix3d cross;
-  cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
-  return cosine * Eigen::Matrix3d::Identity() + (1.0 - cosine) * axis * axis.transpose() + sine * cross;
-}
 
 // Scale, to the origin of the model, then rotate. Steps that are not given leave the points unchanged bit for bit.
 // @param mesh null: another shape
@@ -40,7 +29,8 @@ std::vector<Vector3> turned_points(std::vector<Vector3> points, const SceneMesh*
   if (mesh != nullptr && !block.shape_origin.isZero(0.0))
     for (Vector3& point : points) point -= block.shape_origin;
   if (block.rotate) {
-    const Eigen::Matrix3d matrix = rotation_matrix(*block.rotate);
+    const Eigen::Matrix3d matrix =
+        rotation_matrix(block.rotate->axis.stableNormalized(), degree_turn(block.rotate->angle));
     for (Vector3& point : points) point = matrix * (point - block.rotate->about) + block.rotate->about;
   }
   return points;

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "apps/scene/import/compas_reader.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -133,7 +132,7 @@ class ProblemReader {
     const JsonNode law = compas_content(*written);
     const std::optional<JsonNode> phi = compas_member(law, "phi"), mu = compas_member(law, "mu");
     if (!phi && !mu) written->fail("has no friction", "a Mohr-Coulomb law with phi or mu");
-    const double angle = phi ? phi->number() : std::atan(mu->number()) * 180.0 / std::numbers::pi;
+    const double angle = phi ? phi->number() : correctly_rounded::degrees_of_atan(mu->number());
     if (!(angle >= 0.0 && angle < 90.0))
       (phi ? *phi : *mu).fail(fmt::format("is {}", angle), "0 to below 90 degrees");
     model_.contact.friction_angle = angle;

@@ -1,16 +1,14 @@
 #include "apps/scene/import/compas_reader.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
-#include <cmath>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "apps/scene/import/compas_problem.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -304,7 +302,7 @@ Vector3 compas_vector(const JsonNode& written) {
 }
 
 void assume_compas_friction(ImportedModel& model) {
-  model.contact.friction_angle = std::atan(compas_friction) * 180.0 / std::numbers::pi;
+  model.contact.friction_angle = correctly_rounded::degrees_of_atan(compas_friction);
   model.notes.push_back(fmt::format(
       "friction is not in the file: a coefficient of {}, as compas_dem's solvers assume", compas_friction));
 }

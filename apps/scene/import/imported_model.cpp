@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <map>
 #include <utility>
 
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -133,7 +133,7 @@ double rounding_of(std::string_view number) {
     if (!power.empty() && power.front() == '+') power.remove_prefix(1);
     std::from_chars(power.data(), power.data() + power.size(), exponent);
   }
-  return 0.5 * std::pow(10.0, exponent - decimals);
+  return 0.5 * correctly_rounded::pow(10.0, exponent - decimals);
 }
 
 std::string plain_name(std::string_view name) {

@@ -4,12 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "apps/scene/import/lmgc90_lines.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 
 namespace ashlar {
@@ -112,15 +111,16 @@ void read_lmgc90_contact(const std::string& file, std::string_view text,
         fmt::format("colours without a law of contact touch without friction (in LMGC90 they do not "
                     "touch): {}",
                     fmt::join(without, ", ")));
-  const auto degrees = [](double coefficient) { return std::atan(coefficient) * 180.0 / std::numbers::pi; };
   const bool one = without.empty() && std::all_of(friction.begin(), friction.end(), [&](const auto& entry) {
                      return entry.second == friction.begin()->second;
                    });
-  model.contact.friction_angle = one ? degrees(friction.begin()->second) : 0.0;
+  model.contact.friction_angle = one ? correctly_rounded::degrees_of_atan(friction.begin()->second) : 0.0;
   if (one) return;
   for (const auto& [pair, coefficient] : friction)
-    model.joints.push_back(
-        {pair.first + "_*", pair.second + "_*", {degrees(coefficient), {}, {}, {}, {}}, false});
+    model.joints.push_back({pair.first + "_*",
+                            pair.second + "_*",
+                            {correctly_rounded::degrees_of_atan(coefficient), {}, {}, {}, {}},
+                            false});
 }
 
 }  // namespace ashlar

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/scene/read/block_arrays.hpp"
-#include "apps/scene/read/exact_turn.hpp"
+#include "geometry/exact/degree_turn.hpp"
 
 namespace ashlar {
 

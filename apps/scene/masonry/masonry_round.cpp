@@ -8,7 +8,7 @@
 #include "apps/scene/keys/masonry_keys.hpp"
 #include "apps/scene/masonry/masonry.hpp"
 #include "apps/scene/masonry/masonry_reading.hpp"
-#include "apps/scene/read/exact_turn.hpp"
+#include "geometry/exact/degree_turn.hpp"
 
 namespace ashlar {
 namespace {
@@ -41,7 +41,7 @@ struct Circle {
   int count;
 
   [[nodiscard]] Vector3 corner(int k, double radius, double height) const {
-    const Turn turn = turn_of((k % count) * 360.0 / count);
+    const DegreeTurn turn = degree_turn((k % count) * 360.0 / count);
     return {center.x() + radius * turn.cosine, center.y() + radius * turn.sine, center.z() + height};
   }
 };
@@ -59,7 +59,7 @@ struct Arch {
   /// Corner before rotation. @param side -0.5 to 0.5 of the width
   [[nodiscard]] Vector3 corner(int joint, double radius, double side) const {
     const bool closed = std::abs(to - from) == 360.0 && joint == voussoirs;
-    const Turn angle = turn_of(between(from, to, closed ? 0 : joint, voussoirs));
+    const DegreeTurn angle = degree_turn(between(from, to, closed ? 0 : joint, voussoirs));
     return {center.x() + radius * angle.cosine, center.y() + side * width, center.z() + radius * angle.sine};
   }
 };
@@ -99,7 +99,7 @@ SceneLoad weight_of_fill(const Arch& arch, int voussoir) {
   const double volume = std::abs(b.x() - a.x()) * (arch.fill->top - 0.5 * (a.z() + b.z())) * arch.width;
   ScenePlane plane{a, {a.z() - b.z(), 0.0, b.x() - a.x()}};
   if (arch.turn) {
-    const Turn turn = turn_of(arch.turn->angle);
+    const DegreeTurn turn = degree_turn(arch.turn->angle);
     const auto turned = [&](const Vector3& v) {
       return Vector3(turn.cosine * v.x() - turn.sine * v.y(), turn.sine * v.x() + turn.cosine * v.y(), v.z());
     };
@@ -184,7 +184,7 @@ std::vector<MasonryPiece> read_dome(TomlTableReader& table) {
   if (!check_pieces(table, static_cast<double>(courses) * voussoirs + 1.0)) return {};
   const Circle circle{center, voussoirs};
   const auto corner = [&](int course, int k, double radius) {
-    const Turn up = turn_of(between(from, to, course, courses));
+    const DegreeTurn up = degree_turn(between(from, to, course, courses));
     return circle.corner(k, radius * up.cosine, radius * up.sine);
   };
   std::vector<MasonryPiece> pieces;

@@ -1,9 +1,7 @@
 #include "apps/scene/read/model_origin.hpp"
 
-#include <Eigen/Geometry>
 #include <exception>
 #include <filesystem>
-#include <numbers>
 #include <utility>
 
 #include "apps/scene/keys/scene_keys.hpp"
@@ -12,6 +10,7 @@
 #include "apps/scene/model/model_position.hpp"
 #include "apps/scene/toml/parameters.hpp"
 #include "apps/scene/toml/toml_table_reader.hpp"
+#include "geometry/exact/axis_rotation.hpp"
 #include "geometry/mesh/volume_mesh.hpp"
 
 namespace ashlar {
@@ -56,8 +55,8 @@ void include_block(const SceneBlock& block, const Box& shape, Box& all) {
   if (is_empty(shape)) return;
   Vector3 center = 0.5 * shape.low + 0.5 * shape.high, half = 0.5 * shape.high - 0.5 * shape.low;
   if (block.rotate) {
-    const Eigen::AngleAxisd turn(block.rotate->angle * std::numbers::pi / 180.0,
-                                 block.rotate->axis.stableNormalized());
+    const Eigen::Matrix3d turn =
+        rotation_matrix(block.rotate->axis.stableNormalized(), degree_turn(block.rotate->angle));
     center = turn * (center - block.rotate->about) + block.rotate->about;
     half.setConstant(half.norm());
   }

@@ -13,6 +13,7 @@
 
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/toml/digit.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/text/parse_number.hpp"
 
 namespace ashlar {
@@ -23,20 +24,20 @@ struct UnaryFunction {
   double (*call)(double);
 };
 
-constexpr std::array<UnaryFunction, 18> unary_functions = {{{"sin", std::sin},
-                                                            {"cos", std::cos},
-                                                            {"tan", std::tan},
-                                                            {"asin", std::asin},
-                                                            {"acos", std::acos},
-                                                            {"atan", std::atan},
-                                                            {"sinh", std::sinh},
-                                                            {"cosh", std::cosh},
-                                                            {"tanh", std::tanh},
-                                                            {"exp", std::exp},
-                                                            {"ln", std::log},
-                                                            {"log10", std::log10},
+constexpr std::array<UnaryFunction, 18> unary_functions = {{{"sin", correctly_rounded::sin},
+                                                            {"cos", correctly_rounded::cos},
+                                                            {"tan", correctly_rounded::tan},
+                                                            {"asin", correctly_rounded::asin},
+                                                            {"acos", correctly_rounded::acos},
+                                                            {"atan", correctly_rounded::atan},
+                                                            {"sinh", correctly_rounded::sinh},
+                                                            {"cosh", correctly_rounded::cosh},
+                                                            {"tanh", correctly_rounded::tanh},
+                                                            {"exp", correctly_rounded::exp},
+                                                            {"ln", correctly_rounded::log},
+                                                            {"log10", correctly_rounded::log10},
                                                             {"sqrt", std::sqrt},
-                                                            {"cbrt", std::cbrt},
+                                                            {"cbrt", correctly_rounded::cbrt},
                                                             {"abs", std::fabs},
                                                             {"floor", std::floor},
                                                             {"ceil", std::ceil},
@@ -52,7 +53,7 @@ double largest(const double* values, int count) {
 }
 
 double quadrant_angle(double y, double x) {
-  return std::atan2(y, x);
+  return correctly_rounded::atan2(y, x);
 }
 
 constexpr std::array<const char*, 3> other_functions = {"atan2", "min", "max"};

@@ -19,11 +19,10 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
   for (const Eigen::VectorXd* vector : {&body.external_force, &body.free_change, &body.change})
     if (!std::isfinite(vector->squaredNorm())) return true;
   if (!std::isfinite(position.squaredNorm())) return true;
-  const double volume = block.basis().volume();
   const Eigen::MatrixX3d displacement = position - block.basis().identity_map();
   const double rounding =
-      std::numeric_limits<double>::epsilon() * displacement.row(0).norm() / std::sqrt(volume);
-  return rounding > share * std::cbrt(volume);
+      std::numeric_limits<double>::epsilon() * displacement.row(0).norm() / std::sqrt(block.basis().volume());
+  return rounding > share * block.size();
 }
 
 /// Allowed depth of two blocks beyond their initial overlap, m. @param share of the smaller one's size

@@ -10,7 +10,6 @@
 #include "mechanics/contact/reference_face.hpp"
 #include "solver/parallel_for.hpp"
 #include "solver/state/agreement.hpp"
-#include "solver/state/automatic.hpp"
 #include "solver/step/step_problem.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -103,7 +102,7 @@ bool is_far(const BlockSystem& system, const RunState& state, int block) {
   const BlockModel& model = system.blocks()[at(block)];
   const Eigen::MatrixX3d retraction = state.states[at(block)].position - state.statics.level_start[at(block)];
   return system.moving()[at(block)] &&
-         mean_motion(model, retraction) > system.settings().statics.motion * block_size(model);
+         mean_motion(model, retraction) > system.settings().statics.motion * model.size();
 }
 
 /// Makes the slip of a load level permanent: later slip counts from there.
@@ -247,7 +246,7 @@ const Retractions& StepContacts::retractions(const RunState& state, const std::v
 
 void StepContacts::remove_internal_edges_of(const BlockSystem& system, const RunState& state,
                                             std::vector<FoundContacts>& found) {
-  const Retractions& retractions = retractions(state, system.moving(), found);
+  const Retractions& known = retractions(state, system.moving(), found);
   const BlockCompression given = compression_of(system, state);
   const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
   const auto stands = [&](const Retraction& retraction) {
@@ -258,7 +257,7 @@ void StepContacts::remove_internal_edges_of(const BlockSystem& system, const Run
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
     remove_internal_edges(
-        a, b, retractions.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
+        a, b, known.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
         stands, pair.contacts);
     if (observer_) observer_(ContactStage::internal_edge, pair.blocks, pair.contacts);
   }
@@ -274,13 +273,13 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
   const ContactBody body_b = body_at_start(system, state, b, &finder_.placed(b));
   const PairHistory& known = history_of(state.pairs, blocks);
   const SimulationSettings& settings = system.settings();
-  const bool may_continue = use == PairUse::motion && state.has_begun();
+  const bool continues = use == PairUse::motion && state.has_begun();
   const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented,
                                             known.overlap};
   const std::vector<bool> references_on_a = reference_is_on_a(
       body_a, body_b, contacts.overlaps,
       [&covered, a = a, b = b](const RimPlace& rim) {
-        return rim.of_a ? covered.may_continue(b, a, rim) : covered.may_continue(a, b, rim);
+        return rim.of_a ? covered.continues(b, a, rim) : covered.continues(a, b, rim);
       },
       order_.is_before(a, b));
   ContactPoints made = contact_points(body_a, body_b, contacts, references_on_a, point_settings,
@@ -295,7 +294,7 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
   law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
   PatchStart start;
   if (use == PairUse::motion && !state.has_begun()) start.touch_within = law.rounding;
-  if (may_continue && law.augmented) start.frozen = known.spent;
+  if (continues && law.augmented) start.frozen = known.spent;
   start.freezes_failure = use == PairUse::statics && state.statics.freezes_failure;
   if (use == PairUse::statics && !state.statics.level_start.empty()) {
     start.moved_in_level = moved_in_level(system, state, blocks, points);
@@ -316,7 +315,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
                                              const std::vector<FoundContacts>& found, PairUse use) {
   const Stopwatch watch(state.log.seconds.contact_points);
   const SimulationSettings& settings = system.settings();
-  const bool may_continue = use == PairUse::motion && state.has_begun();
+  const bool continues = use == PairUse::motion && state.has_begun();
   const bool all_kept =
       std::all_of(found.begin(), found.end(), [](const FoundContacts& pair) { return pair.kept != nullptr; });
   SurfaceContinuation covered(settings.contact_distance);
@@ -353,7 +352,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
                [&](std::size_t n) { assembled[n] = make_pair(system, state, std::move(recipes[n])); });
   std::vector<ContactPair> pairs;
   for (std::optional<ContactPair>& pair : assembled) pairs.push_back(std::move(*pair));
-  if (may_continue) bound_energies(system, state, pairs);
+  if (continues) bound_energies(system, state, pairs);
   for (const TiedBlocks& tied : system.ties()) {
     if (!system.moving()[at(tied.a)] && !system.moving()[at(tied.b)]) continue;
     pairs.emplace_back(PairBodies{tied.a, tied.b, body_at_start(system, state, tied.a, nullptr),
@@ -369,7 +368,7 @@ std::vector<PassingBlocks> StepContacts::check_motion(const BlockSystem& system,
   const Stopwatch watch(state.log.seconds.motion_check);
   std::vector<PassingBlocks> passing = finder_.check_motion(state.states, after, found, state.pairs);
   if (passing.empty()) return passing;
-  const Retractions& retractions = this->retractions(state, system.moving(), found);
+  const Retractions& known = retractions(state, system.moving(), found);
   const BlockCompression given = compression_of(system, state);
   const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
   const auto stands = [&](const Retraction& retraction) {
@@ -378,9 +377,9 @@ std::vector<PassingBlocks> StepContacts::check_motion(const BlockSystem& system,
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
-    const std::vector<Retraction> retractions =
-        retractions.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
-    return at_internal_edge(a, b, retractions, stands, pair.touch);
+    const std::vector<Retraction> of_pair =
+        known.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
+    return at_internal_edge(a, b, of_pair, stands, pair.touch);
   });
   return passing;
 }

@@ -3,24 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "geometry/boxes/box_pairs.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
-
 void warn_of_small_angle(const Scene& scene, const std::string& key, double angle, Diagnostics& diagnostics) {
   if (!(angle > 0.0 && angle < 1.0)) return;
-  diagnostics.warning(scene.places.value(key),
-                      fmt::format("friction_angle is in degrees ({}): tan({} deg) = {:.2g}; a coefficient of "
-                                  "{} is {:.3g} degrees, {} rad "
-                                  "are {:.3g} degrees",
-                                  angle, angle, std::tan(angle * degree), angle, std::atan(angle) / degree,
-                                  angle, angle / degree));
+  diagnostics.warning(
+      scene.places.value(key),
+      fmt::format("friction_angle is in degrees ({}): tan({} deg) = {:.2g}; a coefficient of "
+                  "{} is {:.3g} degrees, {} rad "
+                  "are {:.3g} degrees",
+                  angle, angle, correctly_rounded::tan_of_degrees(angle), angle,
+                  correctly_rounded::degrees_of_atan(angle), angle, angle * 180.0 / std::numbers::pi));
 }
 
 void warn_of_no_friction(const Scene& scene, Diagnostics& diagnostics) {
@@ -54,7 +53,7 @@ void warn_of_upward_gravity(const Scene& scene, Diagnostics& diagnostics) {
   const SceneAnalysis& analysis = scene.analysis;
   const bool changes = !analysis.gravity_history.empty();
   const Vector3& gravity = changes ? analysis.gravity_history.front().value : analysis.gravity;
-  if (!(gravity.z() > std::hypot(gravity.x(), gravity.y()))) return;
+  if (!(gravity.z() > correctly_rounded::hypot(gravity.x(), gravity.y()))) return;
   diagnostics.warning(
       scene.places.value(changes ? "analysis.gravity_history" : "analysis.gravity"),
       fmt::format("gravity points upwards ([{}, {}, {}]): z is up, [0, 0, -9.81] is the earth's", gravity.x(),

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "apps/scene/model/block_names.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
 namespace {
@@ -55,7 +56,7 @@ Vector3 largest_gravity(const SceneAnalysis& analysis) {
 
 JudgedBlock judged(const Scene& scene, const SceneBlock& block, const SceneMaterial& material,
                    const Polyhedron& solid) {
-  const double size = std::cbrt(solid.volume());
+  const double size = correctly_rounded::cbrt(solid.volume());
   JudgedBlock result{block, material, size, 0.0, 0.0, 0.0, 0.0};
   const Vector3 gravity = largest_gravity(scene.analysis);
   result.weight = material.density * gravity.norm() * solid.volume();

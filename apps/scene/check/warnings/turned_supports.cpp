@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/scene/model/support_history.hpp"
+#include "geometry/exact/axis_rotation.hpp"
 #include "mechanics/material/elasticity.hpp"
 
 namespace ashlar {
@@ -62,7 +63,7 @@ class SupportedFrame {
         gradient.row(axis) += displacement[axis] * responses_[static_cast<std::size_t>(axis)][n].transpose();
     }
     if (held_alike_) turn_normal(gradient);
-    return Eigen::AngleAxisd(polar_decomposition(gradient).rotation).angle();
+    return rotation_vector(polar_decomposition(gradient).rotation).norm();
   }
 
  private:
