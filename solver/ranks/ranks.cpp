@@ -54,7 +54,7 @@ void do_on_all(Ranks& ranks, const std::function<void()>& work) {
   const auto note = [&](unsigned char how, std::string_view text) {
     thrown = std::current_exception();
     outcome[0] = std::byte{how};
-    const auto bytes = std::as_bytes(std::span(text));
+    const auto bytes = std::as_bytes(std::span<const char>(text));
     outcome.insert(outcome.end(), bytes.begin(), bytes.end());
   };
   try {

@@ -104,7 +104,7 @@ void send_in_messages(Ranks& ranks, PairVisitors visitors, const std::vector<Pai
   for (std::size_t k = 0; k <= messages.first.size(); ++k) {
     const auto to =
         k < messages.first.size() ? std::lower_bound(from, own.end(), messages.first[k]) : own.end();
-    const std::span<const PairKey> keys(from, to);
+    const std::span<const PairKey> keys(std::to_address(from), std::to_address(to));
     send(
         ranks, visitors, [&](ByteWriter& writer) { write(writer, keys); },
         [&](ByteReader& reader) { failure.during([&] { read(reader); }); });
