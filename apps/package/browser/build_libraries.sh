@@ -27,10 +27,11 @@ cxx="ccache clang++ ${flags[*]} -D_LIBCPP_ABI_VERSION=2 -fno-threadsafe-statics 
 defined() { llvm-nm --defined-only "$system_libraries/libc.a" 2>/dev/null | awk 'NF == 3 { print $3 }' | sort -u; }
 needed() { llvm-nm --undefined-only "$system_libraries/libc.a" 2>/dev/null | awk 'NF == 2 { print $2 }' | sort -u; }
 comm -23 <(needed) <(defined) >"$root/javascript_functions"
-# Options of the linker are the compiler's, since some checks pass no others.
+# Options of the linker are the compiler's, since some checks pass no others. It links without an optimiser (-O0), which cannot
+# read the programs that declare a function with a type that is not its own, as those of checks do.
 link="-Qunused-arguments -nostdlib -L$system_libraries -Wl,--entry=main -lc -lcompiler_rt"
 link="$link -Wl,--allow-undefined-file=$root/javascript_functions"
-host=(--host=none CC="$cc $link" CXX="$cxx $link -lc++-except -lc++abi-except" AR="$archiver" RANLIB=llvm-ranlib CFLAGS=-O2)
+host=(--host=none CC="$cc $link" CXX="$cxx $link -lc++-except -lc++abi-except" AR="$archiver" RANLIB=llvm-ranlib CFLAGS=-O2 LDFLAGS=-O0)
 build_compilers=()
 read -ra compile <<<"$cc"
 cmake_options=(-DASHLAR_BROWSER_LIBRARIES="$root" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
@@ -55,9 +56,11 @@ build_zlib() {
   cp zlib.h zconf.h "$root/include"
 }
 
-# The kernels in C, which a processor without vectors has, without barriers between threads.
-build_openblas() {
-  openblas CC="$cc -DMB= -DWMB= -DRMB=" FC=true AR="$archiver" RANLIB=llvm-ranlib TARGET=RISCV64_GENERIC ARCH=riscv64 OSNAME=Linux NUM_THREADS=1
+# Eigen's kernels behind the names of BLAS.
+build_blas() {
+  mkdir -p "$root/sources/blas-objects"
+  $cxx -std=c++17 -O2 -DNDEBUG -isystem "$root/include/eigen3" -c "$here/blas.cpp" -o "$root/sources/blas-objects/blas.o"
+  "$archiver" rcs "$root/lib/libblas.a" "$root/sources/blas-objects/blas.o"
 }
 
-build_all headers zlib gmp_64 mpfr googletest fmt qd metis suitesparse openblas muparser expat
+build_all headers zlib gmp_64 mpfr googletest fmt qd metis suitesparse blas muparser expat
