@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cfenv>
 #include <cmath>
 #include <mutex>
 #include <numbers>
 #include <set>
 
 #include "apps/scene/model/nearest_name.hpp"
+#include "apps/scene/system/float_faults.hpp"
 #include "apps/scene/toml/digit.hpp"
 #include "geometry/exact/rounded_functions.hpp"
 #include "geometry/text/parse_number.hpp"
@@ -268,16 +268,15 @@ double Formulas::value(const std::string& text) const {
 
 double Formulas::evaluated(const std::string& text) const {
   try {
-    std::feclearexcept(FE_ALL_EXCEPT);
+    forget_float_faults();
     const double result = parser_->parser.Eval();
-    const int raised = std::fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+    const FloatFaults faults = float_faults(result);
     if (parser_->parser.GetNumResults() != 1)
       throw FormulaError("formula has several values (a comma), one is needed", 0);
-    if ((raised & FE_DIVBYZERO) != 0)
-      throw FormulaError("formula divides by zero, another divisor is needed", 0);
-    if (raised != 0 || !std::isfinite(result))
+    if (faults.division) throw FormulaError("formula divides by zero, another divisor is needed", 0);
+    if (faults.any() || !std::isfinite(result))
       throw FormulaError(fmt::format("formula has no finite value ({}), a number is needed",
-                                     (raised & FE_INVALID) != 0 ? "not a number" : "too large"),
+                                     faults.invalid ? "not a number" : "too large"),
                          0);
     return result;
   } catch (const mu::Parser::exception_type& error) {

@@ -111,7 +111,7 @@ toml::table parsed_twice(std::string_view text, std::string_view origin) {
 toml::table parse_toml(std::string_view text, std::string_view origin) {
   const auto deep = find_deep_key(text);
   if (deep != text.end()) {
-    const std::string_view before(text.begin(), deep);
+    const std::string_view before = text.substr(0, static_cast<std::size_t>(deep - text.begin()));
     toml::source_position position;
     position.line = static_cast<toml::source_index>(1 + std::count(before.begin(), before.end(), '\n'));
     position.column = static_cast<toml::source_index>(before.size() - (before.rfind('\n') + 1) + 1);

@@ -17,7 +17,7 @@ ProcessCopy::ProcessCopy(const std::function<int()>& /*run*/, const std::optiona
 }
 
 std::optional<int> ProcessCopy::ended() const {
-  return -1;
+  return static_cast<int>(process_);  // none was made
 }
 
 void ProcessCopy::ask_to_end() const {}
