@@ -31,7 +31,7 @@ set(CMAKE_CXX_FLAGS_INIT "${ashlar_wasm} ${ashlar_wasm_cxx} -include ${CMAKE_CUR
 # Memory as far as 32 bits reach, and twice the stack that a thread has in Linux. node has packages of Debian in a folder of
 # its own.
 set(ashlar_link "env NODE_PATH=/usr/share/nodejs em++ -fwasm-exceptions -O2 -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB")
-set(ashlar_link "${ashlar_link} -sINITIAL_MEMORY=64MB -sTOTAL_STACK=16MB")
+set(ashlar_link "${ashlar_link} -sINITIAL_MEMORY=64MB -sTOTAL_STACK=16MB -L${ASHLAR_BROWSER_LIBRARIES}/lib")
 foreach(language C CXX)
   set(CMAKE_${language}_LINK_EXECUTABLE
     "${ashlar_link} <LINK_FLAGS> <OBJECTS> -o <TARGET> <LINK_LIBRARIES>")

@@ -70,7 +70,7 @@ ToolStart read_a_file(Workspace& workspace, const Json& arguments) {
   const std::filesystem::path path = workspace.folder().file(arguments["file"].get<std::string>());
   std::istringstream text(
       naming_the_file(path, [&] { return whole_file(workspace.folder().root() / path, most_input_bytes); }));
-  if (text.view().find('\0') != std::string_view::npos)
+  if (text.str().find('\0') != std::string::npos)
     throw ToolRefusal(fmt::format("{} is no text; summary, history and picture read results", path.string()));
   const std::size_t first = arguments.value("first_line", std::size_t{1});
   const std::size_t count = arguments.value("lines", usual_lines);
