@@ -78,6 +78,15 @@ class Browser:
             raise RuntimeError(f"{expression}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
+    def evaluate_in(self, target, expression):
+        """The same in another target, as a frame that has a process of its own."""
+        page, self._session = self._session, self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        try:
+            return self.evaluate(expression)
+        finally:
+            frame, self._session = self._session, page
+            self.call("Target.detachFromTarget", sessionId=frame)
+
     def click(self, x, y):
         for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
             self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)

@@ -39,12 +39,9 @@ class RunPageTest(unittest.TestCase):
 
     def in_view(self, expression):
         """The value of an expression in the frame of results, which the page itself may not look into."""
-        frames = self.browser.call("Page.getFrameTree")["frameTree"].get("childFrames", [])
-        if not frames:
-            return None
-        world = self.browser.call("Page.createIsolatedWorld", frameId=frames[0]["frame"]["id"])
-        found = self.browser.call("Runtime.evaluate", expression=expression, contextId=world["executionContextId"], returnByValue=True)
-        return found["result"].get("value")
+        targets = self.browser.call("Target.getTargets")["targetInfos"]
+        frames = [each["targetId"] for each in targets if each["type"] == "iframe"]
+        return self.browser.evaluate_in(frames[0], expression) if frames else None
 
     def write(self, text):
         self.browser.evaluate(f"setText({text!r})")
@@ -69,8 +66,9 @@ class RunPageTest(unittest.TestCase):
         self.wait_for("program.module")
         self.write('title = "x"\nanalysis = { type = "statik" }\n')
         self.wait_for("document.querySelectorAll('#faults .error').length > 0")
-        self.assertEqual(self.browser.evaluate("document.querySelectorAll('#lines .error')[0].textContent"), "2")
-        self.browser.evaluate("document.querySelector('#faults li').click()")
+        self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('#lines .error')].map(each => each.textContent)"),
+                         ["1", "2"])
+        self.browser.evaluate("document.querySelector('#faults li:last-child').click()")
         self.assertGreater(self.browser.evaluate("element('text').selectionStart"), 11)
 
     def test_keys_and_values_from_the_schema(self):
@@ -85,8 +83,10 @@ class RunPageTest(unittest.TestCase):
         self.assertEqual(self.browser.evaluate("element('text').value"), "[[masonry]]")
 
     def test_stop_keeps_frames(self):
-        self.open("#scene=tunnel_roof.toml&run")
-        self.wait_for("/ 0.6 s/.test(element('log').textContent)")
+        self.open("#scene=tunnel_roof.toml")
+        self.wait_for("program.module")
+        self.browser.evaluate("setText(element('text').value.replace('end_time = 0.6', 'end_time = 60')), void run()")
+        self.wait_for("/ 60 s/.test(element('log').textContent)")
         time.sleep(4)
         self.browser.evaluate("element('stop').click()")
         self.wait_for("element('state').textContent.startsWith('stopped')")
