@@ -119,7 +119,7 @@ class DeepEndSearch {
       const ViewFrame& frame = overlap.frame;
       const auto continues = [&](bool rim_of_a, int face) {
         return continues_({rim_of_a, face, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
-                              outward.x() * frame.e1 + outward.y() * frame.e2, near});
+                           outward.x() * frame.e1 + outward.y() * frame.e2, near});
       };
       const std::optional<bool> a_ends = ends_at(a_, overlap.cell_a, normal_b, frame, side, tolerance_);
       const std::optional<bool> b_ends = ends_at(b_, overlap.cell_b, normal_a, frame, side, tolerance_);

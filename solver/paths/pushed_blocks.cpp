@@ -186,7 +186,8 @@ std::optional<PushedPlace> PushedBlocks::advanced(PushedPlace& from, double leng
   return equilibrium_from(std::move(next), lengths_.farthest - last_travel_, opened);
 }
 
-std::optional<PushedPlace> PushedBlocks::equilibrium_from(FollowedPlace placement, double travel, double opened) {
+std::optional<PushedPlace> PushedBlocks::equilibrium_from(FollowedPlace placement, double travel,
+                                                          double opened) {
   double gap = opened;
   for (int n = 0; n < most_gap_closings; ++n) {
     PushedPlace place;

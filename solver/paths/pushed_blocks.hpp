@@ -42,7 +42,7 @@ class PushedBlocks {
   /// A placement in equilibrium. @param travel m, allowed displacement of blocks. @param opened m, largest gap that a step has
   /// opened at a point under pressure. Empty: see failure()
   [[nodiscard]] std::optional<PushedPlace> equilibrium_from(FollowedPlace placement, double travel,
-                                                     double opened = 0.0);
+                                                            double opened = 0.0);
 
   /// True if no multiplier up to a few times the given size balances the blocks where the last step has led, which has
   /// failed as undetermined.

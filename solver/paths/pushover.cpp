@@ -308,7 +308,8 @@ class PushoverPath {
     const std::size_t shown = std::min(count, most_states);
     for (std::size_t n = 0; n < shown; ++n) {
       const std::size_t k = shown > 1 ? n * (count - 1) / (shown - 1) : 0;
-      const std::optional<PushedPlace> place = pushed_.equilibrium_from(visited_[k].placement, lengths_.farthest);
+      const std::optional<PushedPlace> place =
+          pushed_.equilibrium_from(visited_[k].placement, lengths_.farthest);
       if (!place) continue;
       PushoverState state;
       state.place = static_cast<int>(k);

@@ -257,8 +257,8 @@ void StepContacts::remove_internal_edges_of(const BlockSystem& system, const Run
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
     remove_internal_edges(
-        a, b, known.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
-        stands, pair.contacts);
+        a, b, known.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given), stands,
+        pair.contacts);
     if (observer_) observer_(ContactStage::internal_edge, pair.blocks, pair.contacts);
   }
 }

@@ -21,7 +21,7 @@ class ContactLine {
  private:
   /// Gap over the rest and trial slip of a pair's points, (3, #points), m.
   struct PairLine {
-    Eigen::Matrix3Xd start;   ///< at share 0
+    Eigen::Matrix3Xd start;  ///< at share 0
     Eigen::Matrix3Xd whole;  ///< change over the whole step of the line
   };
 
