@@ -2,6 +2,7 @@
 
 #include <mpfr.h>
 
+#include <cfenv>
 #include <limits>
 
 namespace ashlar::correctly_rounded {
@@ -28,13 +29,24 @@ class ExponentsOfDoubles {
   mpfr_exp_t largest_ = mpfr_get_emax();
 };
 
+/// Raises what MPFR has met since its flags were cleared, where the system counts faults.
+void raise_faults() {
+#if defined(FE_INVALID) && defined(FE_DIVBYZERO) && defined(FE_OVERFLOW)
+  const int met = (mpfr_nanflag_p() != 0 ? FE_INVALID : 0) | (mpfr_divby0_p() != 0 ? FE_DIVBYZERO : 0) |
+                  (mpfr_overflow_p() != 0 ? FE_OVERFLOW : 0);
+  if (met != 0) std::feraiseexcept(met);
+#endif
+}
+
 /// @param compute sets its first argument from the number in it, and returns how it was rounded.
 template <class Function>
 double nearest(double x, Function compute) {
   const ExponentsOfDoubles exponents;
   MPFR_DECL_INIT(value, Limits::digits);
   mpfr_set_d(value, x, MPFR_RNDN);
+  mpfr_clear_flags();
   mpfr_subnormalize(value, compute(value), MPFR_RNDN);
+  raise_faults();
   return mpfr_get_d(value, MPFR_RNDN);
 }
 

@@ -1,8 +1,8 @@
 // Elementary functions, rounded to the nearest double: by MPFR, so that every system has the same bits. Those of C
 // libraries differ in their last bit from one library to the next, and with the processor.
 //
-// A call takes 1 to 5 microseconds. Subnormal results are rounded once. Arguments beyond a function's domain give NaN,
-// as in the C library.
+// A call takes 1 to 5 microseconds. Subnormal results are rounded once. Arguments beyond a function's domain give NaN, and
+// faults of arithmetic are raised (std::fetestexcept), as in the C library; for NaN too.
 #pragma once
 
 namespace ashlar::correctly_rounded {

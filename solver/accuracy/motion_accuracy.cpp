@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 #include "solver/accuracy/goal_distance.hpp"
 #include "solver/accuracy/island_errors.hpp"
@@ -137,7 +136,7 @@ class StepTests {
         request_(request),
         goals_(goals),
         state_(state),
-        power_(correctly_rounded::pow(2.0, order_of(simulation.system().settings().integrator))),
+        power_(std::ldexp(1.0, order_of(simulation.system().settings().integrator))),
         longest_(std::min(request.longest_step, impact_step(request, state.scales))),
         shortest_(state.impacts > 0 && state.scales.impact_speed > 0.0
                       ? shortest_after_impact * impact_step(request, state.scales)

@@ -4,6 +4,7 @@
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/mpfr.hpp>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -73,6 +74,20 @@ TEST(RoundedFunctions, EndsOfTheRange) {
   EXPECT_TRUE(std::isnan(acos(1.0 + Limits::epsilon())));
   EXPECT_TRUE(std::isnan(sin(Limits::infinity())));
   EXPECT_EQ(log(0.0), -Limits::infinity());
+}
+
+TEST(RoundedFunctions, FaultsAreRaised) {
+  const auto raised = [](double value) {
+    const int faults = std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    std::feclearexcept(FE_ALL_EXCEPT);
+    return std::pair(value, faults);
+  };
+  std::feclearexcept(FE_ALL_EXCEPT);
+  EXPECT_EQ(raised(log(0.0)).second, FE_DIVBYZERO);
+  EXPECT_EQ(raised(exp(1000.0)).second, FE_OVERFLOW);
+  EXPECT_EQ(raised(asin(2.0)).second, FE_INVALID);
+  EXPECT_EQ(raised(tan_of_degrees(90.0)).second, FE_DIVBYZERO);
+  EXPECT_EQ(raised(cos(1.0)).second, 0);
 }
 
 }  // namespace

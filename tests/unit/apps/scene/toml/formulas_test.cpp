@@ -73,6 +73,8 @@ TEST(Formulas, OnlyFiniteNumbersCount) {
   EXPECT_EQ(fault_of("= sqrt(-h)"), "0: formula has no finite value (not a number), a number is needed");
   EXPECT_EQ(fault_of("= none/none"), "0: formula has no finite value (not a number), a number is needed");
   EXPECT_EQ(fault_of("= exp(1e6)"), "0: formula has no finite value (too large), a number is needed");
+  EXPECT_EQ(fault_of("= 1/exp(1e6)"), "0: formula has no finite value (too large), a number is needed");
+  EXPECT_EQ(fault_of("= 1/ln(0)"), "0: formula divides by zero, another divisor is needed");
   EXPECT_EQ(fault_of("= 1e300*1e300"), "0: formula has no finite value (too large), a number is needed");
 }
 
