@@ -87,9 +87,9 @@ class Simulation {
   /// analysis, and then sets their initial velocities (static_start.hpp).
   /// @param may_continue called before each iteration: false ends the analysis; the same on all ranks
   /// @return status of the analysis, balancing if it was ended; unless it is equilibrium all blocks are as placed
-  [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& may_continue = [] {
-    return true;
-  });
+  [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& may_continue);
+  /// The same, to its end.
+  [[nodiscard]] StaticStatus start_from_statics();
 
   /// Continues from the end of a simulation of the same blocks (stage_start.hpp).
   /// @param was_absent in it, by block

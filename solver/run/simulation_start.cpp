@@ -103,6 +103,10 @@ StaticStatus Simulation::start_from_statics(const std::function<bool()>& may_con
   return ashlar::start_from_statics(context(), may_continue);
 }
 
+StaticStatus Simulation::start_from_statics() {
+  return start_from_statics([] { return true; });
+}
+
 void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
   refuse_late("start_stage");
   refuse_ranks("stages after a snapshot alone");
