@@ -190,8 +190,8 @@ void compare_normal(const Pair& pair, const ExactAnswer& exact, const ConvexCont
   }
   std::set<Point> allowed;
   if (exact.contact.crossing) {
-    for (const ExactContact& sense : exact.minimal_translations)
-      allowed.insert(rounded_unit(sense.translation));
+    for (const ExactContact& minimal : exact.minimal_translations)
+      allowed.insert(rounded_unit(minimal.translation));
     if (allowed.empty()) allowed.insert(Point{0, 0, 0});
   } else {
     for (const RationalVector& n : separating_normals(pair.p, pair.q)) allowed.insert(rounded_unit(n));
@@ -273,15 +273,15 @@ Differences compare_with_oracle(const Shape& p, const Shape& q) {
 
   report.expect("number of minimal translations", exact.minimal_translations.size(),
                 found.minimal_translations.size());
-  for (const ExactContact& sense : exact.minimal_translations) {
-    const Point translation = rounded(sense.translation);
+  for (const ExactContact& minimal : exact.minimal_translations) {
+    const Point translation = rounded(minimal.translation);
     const auto match = std::find_if(
         found.minimal_translations.begin(), found.minimal_translations.end(),
         [&](const MinimalTranslation& candidate) { return to_point(candidate.translation) == translation; });
     report.expect("minimal translation found", true, match != found.minimal_translations.end());
     if (match == found.minimal_translations.end()) continue;
-    compare_region("after translation: ", pair, sense, match->region, report);
-    compare_order("after translation: ", sense, match->region, match->translation, report);
+    compare_region("after translation: ", pair, minimal, match->region, report);
+    compare_order("after translation: ", minimal, match->region, match->translation, report);
   }
   return report.take();
 }
@@ -306,8 +306,8 @@ Differences compare_with_variant(const ConvexContact& original, const ConvexCont
 
   report.expect("number of minimal translations", original.minimal_translations.size(),
                 of_variant.minimal_translations.size());
-  for (const MinimalTranslation& sense : original.minimal_translations) {
-    const Point translation = carried_vector(sense.translation, variant, scale);
+  for (const MinimalTranslation& minimal : original.minimal_translations) {
+    const Point translation = carried_vector(minimal.translation, variant, scale);
     const auto match = std::find_if(
         of_variant.minimal_translations.begin(), of_variant.minimal_translations.end(),
         [&](const MinimalTranslation& candidate) { return to_point(candidate.translation) == translation; });
@@ -315,7 +315,7 @@ Differences compare_with_variant(const ConvexContact& original, const ConvexCont
     if (match == of_variant.minimal_translations.end()) continue;
     // Another body moves in a swapped pair, so the places differ by the translation, rounded.
     if (!variant.swapped)
-      compare_variant_regions("after translation: ", sense.region, match->region, variant, report);
+      compare_variant_regions("after translation: ", minimal.region, match->region, variant, report);
   }
   return report.take();
 }

@@ -42,31 +42,31 @@ Simulation sliding_slab(const JointLaw& law, const SimulationSettings& settings,
           settings};
 }
 
-struct Way {
+struct Method {
   Integrator integrator;
   int order;
   bool area;
   bool augmented;
 };
 
-class SlidingUp : public testing::TestWithParam<Way> {};
+class SlidingUp : public testing::TestWithParam<Method> {};
 
 // m x'' = -N tan(phi), m z'' = N - m g, z = x tan(psi):  N = m g / (1 + tan(phi) tan(psi)); it comes to rest after
 // s = v^2 m / (2 N tan(phi)), has risen by s tan(psi), and sliding has taken N (tan(phi) - tan(psi)) s.
 TEST_P(SlidingUp, UnderConstantLoadRisesBySlipTimesTangent) {
-  const Way& travel = GetParam();
+  const Method& method = GetParam();
   constexpr double friction = 0.5, dilation = 0.15, speed = 1.5, mass = 250.0;
   SimulationSettings settings;
   settings.time_step = 1e-3;
-  settings.integrator = travel.integrator;
-  settings.area_springs = travel.area;
-  settings.augmented = travel.augmented;
+  settings.integrator = method.integrator;
+  settings.area_springs = method.area;
+  settings.augmented = method.augmented;
   settings.contact_distance = 1e-3;  // far less than it rises
   settings.rest.sleeps = false;
-  JointLaw law = dilating(friction, dilation, travel.area);
+  JointLaw law = dilating(friction, dilation, method.area);
   // It starts without pressure. Undamped, it bounces without end, and slips in flight.
-  if (travel.integrator == Integrator::average_acceleration && !travel.augmented) law.damping = 0.3;
-  Simulation simulation = sliding_slab(law, settings, travel.order, speed, 0.3);
+  if (method.integrator == Integrator::average_acceleration && !method.augmented) law.damping = 0.3;
+  Simulation simulation = sliding_slab(law, settings, method.order, speed, 0.3);
   const Vector3 start = place_of(simulation, 1, {0, 0, 0});
   ASSERT_TRUE(run_until(simulation, 0.5));
   const Vector3 moved = place_of(simulation, 1, {0, 0, 0}) - start;
@@ -83,14 +83,14 @@ TEST_P(SlidingUp, UnderConstantLoadRisesBySlipTimesTangent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SlidingUp,
-                         testing::Values(Way{Integrator::dda, 1, true, false},
-                                         Way{Integrator::dda, 2, false, false},
-                                         Way{Integrator::dda, 0, true, false},
-                                         Way{Integrator::average_acceleration, 1, true, false},
-                                         Way{Integrator::average_acceleration, 2, true, false},
-                                         Way{Integrator::generalized_alpha, 1, true, false},
-                                         Way{Integrator::dda, 1, true, true},
-                                         Way{Integrator::average_acceleration, 1, true, true}));
+                         testing::Values(Method{Integrator::dda, 1, true, false},
+                                         Method{Integrator::dda, 2, false, false},
+                                         Method{Integrator::dda, 0, true, false},
+                                         Method{Integrator::average_acceleration, 1, true, false},
+                                         Method{Integrator::average_acceleration, 2, true, false},
+                                         Method{Integrator::generalized_alpha, 1, true, false},
+                                         Method{Integrator::dda, 1, true, true},
+                                         Method{Integrator::average_acceleration, 1, true, true}));
 
 /// A prism of 1 m^2 on a plate, its top pressed down by w and moved aside by u in time.
 class Confined {

@@ -42,8 +42,8 @@ TEST(ConvexSurface, FindsAnEdgeFromEitherEnd) {
   int edges = 0;
   for (int from = 0; from < static_cast<int>(points.size()); ++from) {
     for (int to = 0; to < static_cast<int>(points.size()); ++to) {
-      const Vector3 sense = points[static_cast<std::size_t>(to)] - points[static_cast<std::size_t>(from)];
-      const bool along_an_axis = (sense.array() != 0.0).count() == 1;
+      const Vector3 along = points[static_cast<std::size_t>(to)] - points[static_cast<std::size_t>(from)];
+      const bool along_an_axis = (along.array() != 0.0).count() == 1;
       bool turned = false, turned_back = false;
       const int edge = convex.find_edge({from, to}, turned);
       EXPECT_EQ(edge >= 0, along_an_axis) << from << " " << to;

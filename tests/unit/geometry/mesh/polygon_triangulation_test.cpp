@@ -120,7 +120,7 @@ TEST(PolygonTriangulation, IsTheSameFromEveryCornerEitherWayAndAnywhere) {
     const std::vector<int> ring = all_of(points);
     const auto triangles = divided(points, ring);
     ASSERT_EQ(triangles.size(), points.size() - 2);
-    const Vector3 sense(std::ldexp(static_cast<double>(random() % 4096), -10), -1.5, 0x1p-20);
+    const Vector3 shift(std::ldexp(static_cast<double>(random() % 4096), -10), -1.5, 0x1p-20);
     for (std::size_t start = 0; start < ring.size(); ++start) {
       std::vector<int> turned = ring;
       std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(start), turned.end());
@@ -134,12 +134,12 @@ TEST(PolygonTriangulation, IsTheSameFromEveryCornerEitherWayAndAnywhere) {
       for (auto corner = turned.rbegin(); corner != turned.rend(); ++corner)
         backwards.push_back(number[*corner]);
       EXPECT_EQ(divided(renumbered, backwards), mirrored(triangles));
-      for (const int corner : ring) moved[number[corner]] = points[corner] + sense;
+      for (const int corner : ring) moved[number[corner]] = points[corner] + shift;
       std::vector<int> forwards(backwards.rbegin(), backwards.rend());
       std::set<PlacedTriangle> elsewhere;
       for (PlacedTriangle triangle : triangles) {
         for (auto& place : triangle)
-          for (int axis = 0; axis < 3; ++axis) place[axis] += sense[axis];
+          for (int axis = 0; axis < 3; ++axis) place[axis] += shift[axis];
         elsewhere.insert(triangle);
       }
       EXPECT_EQ(divided(moved, forwards), elsewhere);

@@ -74,14 +74,14 @@ TEST(InternalEdges, ACubeSlidesOverThemAsOverOneFloor) {
       Crossing crossing;
       crossing.order = order;
       crossing.area = area;
-      const Vector3 retraction = travel(crossed(crossing));
-      EXPECT_NEAR(retraction.x(), 1.2, area ? 1e-8 : 1e-4) << order << area;
+      const Vector3 moved = travel(crossed(crossing));
+      EXPECT_NEAR(moved.x(), 1.2, area ? 1e-8 : 1e-4) << order << area;
       // It rests 2.45e-5 m deep and does not sink at a joint, as it would by as much again if springs began
       // anew there.
       if (area && order == 1) {
-        EXPECT_NEAR(retraction.z(), -2500.0 * 9.81 / 1e9, 2e-6);
+        EXPECT_NEAR(moved.z(), -2500.0 * 9.81 / 1e9, 2e-6);
       }
-      EXPECT_NEAR(retraction.z(), 0.0, 1e-4) << order << area;
+      EXPECT_NEAR(moved.z(), 0.0, 1e-4) << order << area;
     }
   }
 }
@@ -117,17 +117,17 @@ TEST(InternalEdges, StonesWithSidesThatLeanOutSlideOverThem) {
             points.emplace_back((0.4 + overhang) * side, y, 0.2);
           }
         }
-        const Vector3 retraction = travel(crossed(crossing, Polyhedron(make_convex_hull(points))));
-        EXPECT_NEAR(retraction.x(), 1.2, 1e-3) << order << area << overhang;
-        EXPECT_NEAR(retraction.z(), 0.0, 1e-4) << order << area << overhang;
+        const Vector3 moved = travel(crossed(crossing, Polyhedron(make_convex_hull(points))));
+        EXPECT_NEAR(moved.x(), 1.2, 1e-3) << order << area << overhang;
+        EXPECT_NEAR(moved.z(), 0.0, 1e-4) << order << area << overhang;
       }
       // A corner ahead, between two edges that rise.
       const std::vector<Vector3> corner_ahead = {{0.5, 0, 0},      {-0.4, 0.4, 0},   {-0.4, -0.4, 0},
                                                  {0.9, 0.8, 0.5},  {0.9, -0.8, 0.5}, {-0.6, 0.8, 0.5},
                                                  {-0.6, -0.8, 0.5}};
-      const Vector3 retraction = travel(crossed(crossing, Polyhedron(make_convex_hull(corner_ahead))));
-      EXPECT_NEAR(retraction.x(), 1.2, 1e-3) << order << area;
-      EXPECT_NEAR(retraction.z(), 0.0, 1e-4) << order << area;
+      const Vector3 moved = travel(crossed(crossing, Polyhedron(make_convex_hull(corner_ahead))));
+      EXPECT_NEAR(moved.x(), 1.2, 1e-3) << order << area;
+      EXPECT_NEAR(moved.z(), 0.0, 1e-4) << order << area;
     }
   }
 }
