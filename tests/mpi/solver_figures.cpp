@@ -67,26 +67,26 @@ BodyRows rows_of_cube(int side, int cube) {
   std::map<int, Eigen::MatrixXd> blocks;
   Eigen::MatrixXd& own = blocks[cube] = elastic_block();
   for (int axis = 0; axis < 3; ++axis) {
-    for (const int side : {-1, 1}) {
+    for (const int toward : {-1, 1}) {
       const auto a = static_cast<std::size_t>(axis);
-      const int next = place[a] + side;
+      const int next = place[a] + toward;
       const bool grounded = axis == 2 && next < 0;
       if ((next < 0 || next >= side) && !grounded) continue;
       Eigen::MatrixXd beside = Eigen::MatrixXd::Zero(12, 12);
       for (const double u : {-0.5, 0.5}) {
         for (const double v : {-0.5, 0.5}) {
           Eigen::Vector3d corner, opposite;
-          corner[axis] = 0.5 * side;
+          corner[axis] = 0.5 * toward;
           corner[(axis + 1) % 3] = u;
           corner[(axis + 2) % 3] = v;
           opposite = corner;
-          opposite[axis] = -0.5 * side;
+          opposite[axis] = -0.5 * toward;
           const Eigen::MatrixXd here = motion_at(corner);
           own += joint * here.transpose() * here;
           beside -= joint * here.transpose() * motion_at(opposite);
         }
       }
-      if (!grounded) blocks[cube + side * stride[a]] = beside;
+      if (!grounded) blocks[cube + toward * stride[a]] = beside;
     }
   }
   BodyRows rows;
