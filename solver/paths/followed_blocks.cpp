@@ -123,10 +123,10 @@ void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocit
   }
 }
 
-void FollowedBlocks::place_support(int support, const SupportWay& travel, double q,
+void FollowedBlocks::place_support(int support, const MovementLaw& movement_law, double q,
                                    FollowedPlace& placement) const {
   placement.states[at(support)].position =
-      travel.placed(system_.blocks()[at(support)], scene_.states[at(support)].position, q);
+      movement_law.placed(system_.blocks()[at(support)], scene_.states[at(support)].position, q);
   placement.moved = q;
 }
 

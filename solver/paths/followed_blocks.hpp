@@ -50,7 +50,7 @@ class FollowedBlocks {
                                                const std::vector<BodyVelocity>& velocity) const;
   /// Moves bodies by exact rotations.
   void move(const RigidModel& model, const std::vector<BodyVelocity>& travel, FollowedPlace& placement) const;
-  void place_support(int support, const SupportWay& travel, double q, FollowedPlace& placement) const;
+  void place_support(int support, const MovementLaw& movement_law, double q, FollowedPlace& placement) const;
 
  private:
   [[nodiscard]] double radius_about(const RigidBody& body) const;

@@ -77,8 +77,8 @@ SupportMovement support_movement(const PlacedScene& scene, int support, const Mo
     throw std::invalid_argument("bolts and props do not follow movements of supports");
   if (block_held_in_part(model)) throw std::invalid_argument("supports hold a block in part");
   if (!is_loaded(model)) throw std::invalid_argument("no load acts");
-  const SupportWay movement_law(model, support, scene.system.settings().gravity_at(scene.end_time),
-                                search.direction);
+  const MovementLaw movement_law(model, support, scene.system.settings().gravity_at(scene.end_time),
+                                 search.direction);
   const PathLengths lengths(smallest_size(scene.system, model), scene.system.settings().contact_distance);
   const FollowedBlocks blocks(scene, lengths.reach);
   SupportMovement movement{support, movement_law.direction(), {}, {}};

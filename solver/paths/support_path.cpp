@@ -36,7 +36,7 @@ class Path {
  public:
   explicit Path(const SupportStart& start)
       : blocks_(start.blocks),
-        travel_(start.travel),
+        movement_law_(start.movement_law),
         support_(start.support),
         sign_(start.sign),
         lengths_(start.lengths),
@@ -139,7 +139,7 @@ class Path {
   /// @param q of the support, m
   [[nodiscard]] ConeProgram program_at(const RigidModel& model, double q) const {
     const SupportVelocity velocity = [this, q](const RigidPoint& point) {
-      return travel_.velocity(point, q);
+      return movement_law_.velocity(point, q);
     };
     return program_with_support(model, support_, velocity, threads_);
   }
@@ -191,7 +191,7 @@ class Path {
     FollowedPlace next = placement_;
     note_slip(*model_, *program_, travel, force_, next);
     blocks_.move(*model_, travel, next);
-    blocks_.place_support(support_, travel_, placement_.moved + sign_ * step, next);
+    blocks_.place_support(support_, movement_law_, placement_.moved + sign_ * step, next);
     const StepEnd end = close(next, lengths_.farthest - farthest);
     if (end != StepEnd::equilibrium) return end;
     path_.places.push_back({moved(), ahead->thrust});
@@ -274,7 +274,7 @@ class Path {
   }
 
   const FollowedBlocks& blocks_;
-  const SupportWay& travel_;
+  const MovementLaw& movement_law_;
   int support_;
   double sign_;
   PathLengths lengths_;

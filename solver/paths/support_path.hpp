@@ -29,7 +29,7 @@ struct PathLengths {
 /// A support with the blocks that follow it, and its direction. The referenced objects must outlive the search.
 struct SupportStart {
   const FollowedBlocks& blocks;
-  const SupportWay& travel;
+  const MovementLaw& movement_law;
   int support;  ///< block
   double sign;  ///< 1: along its coordinate, -1: against it
   PathLengths lengths;

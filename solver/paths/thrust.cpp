@@ -65,7 +65,7 @@ class ThrustProgram {
   }
 
   static ConeProgram made(const RigidModel& model, int support, const Vector3& down, int threads) {
-    const SupportWay movement_law(model, support, down, std::nullopt);
+    const MovementLaw movement_law(model, support, down, std::nullopt);
     return program_with_support(
         model, support,
         [&movement_law](const RigidPoint& point) { return movement_law.velocity(point, 0.0); }, threads);

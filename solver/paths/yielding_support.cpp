@@ -76,8 +76,8 @@ Eigen::MatrixX3d mapped(const BlockModel& block, const Eigen::MatrixX3d& positio
   return position * a.transpose() + one * c.transpose();
 }
 
-SupportWay::SupportWay(const RigidModel& model, int support, const Vector3& down,
-                       const std::optional<Vector3>& direction)
+MovementLaw::MovementLaw(const RigidModel& model, int support, const Vector3& down,
+                         const std::optional<Vector3>& direction)
     : support_(support), middle_(middle_of_bodies(model)), down_(down) {
   std::map<int, int> count;
   for (const RigidPoint& point : model.points) {
@@ -97,15 +97,15 @@ SupportWay::SupportWay(const RigidModel& model, int support, const Vector3& down
   if (!direction_ && sum > 0.0) radius_ = sum / static_cast<double>(arms_.size());
 }
 
-Vector3 SupportWay::velocity(const RigidPoint& point, double q) const {
+Vector3 MovementLaw::velocity(const RigidPoint& point, double q) const {
   if (direction_) return *direction_;
   const auto arm = arms_.find(point.blocks[point.blocks[0] == support_ ? 1 : 0]);
   if (arm != arms_.end()) return arm->second / radius_;
   return level_part(point.place - middle_, down_) / (radius_ + q);
 }
 
-Eigen::MatrixX3d SupportWay::placed(const BlockModel& support, const Eigen::MatrixX3d& position,
-                                    double q) const {
+Eigen::MatrixX3d MovementLaw::placed(const BlockModel& support, const Eigen::MatrixX3d& position,
+                                     double q) const {
   if (direction_) return mapped(support, position, Eigen::Matrix3d::Identity(), q * *direction_);
   Eigen::Matrix3d level;
   for (int k = 0; k < 3; ++k) level.col(k) = level_part(Vector3::Unit(k), down_);

@@ -22,12 +22,12 @@ namespace ashlar {
 /// if it were split between the blocks on it. The part that supports a block moves horizontally away from the centre
 /// of the structure, by q at the mean distance of such joints from there and in proportion elsewhere. A stretched
 /// support has the same motion at the centroid of each joint.
-class SupportWay {
+class MovementLaw {
  public:
   /// @param model as placed. @param down of gravity, any length
   /// @throws std::invalid_argument if the support touches no body
-  SupportWay(const RigidModel& model, int support, const Vector3& down,
-             const std::optional<Vector3>& direction);
+  MovementLaw(const RigidModel& model, int support, const Vector3& down,
+              const std::optional<Vector3>& direction);
 
   /// Unit vector; empty: the support spreads.
   [[nodiscard]] const std::optional<Vector3>& direction() const { return direction_; }

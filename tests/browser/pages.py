@@ -17,6 +17,13 @@ class Pages:
     _written = set()
 
     @classmethod
+    def shared_browser(cls):
+        """Started by the first test that opens a page: `ashlar picture` starts one of its own."""
+        if cls.browser is None:
+            cls.browser = Browser(find_chromium(), WIDTH, HEIGHT)
+        return cls.browser
+
+    @classmethod
     def folder_of(cls, name):
         """The result folder of one of the scenes below, with its page."""
         folder = cls.folder / name
@@ -55,26 +62,25 @@ class Pages:
 def main():
     """Runs the tests of the calling file: FILE ASHLAR SCENES, the program and the folder of the demo scenes; skipped (77)
     where there is no Chromium."""
-    chromium = find_chromium()
-    if chromium is None:
+    if find_chromium() is None:
         print("\n*** NOT TESTED: no chromium found, the pages of `ashlar view` were not opened in a browser ***\n",
               file=sys.stderr)
         sys.exit(77)
     Pages.program, Pages.scenes = map(pathlib.Path, (sys.argv.pop(1), sys.argv.pop(1)))
     with tempfile.TemporaryDirectory() as folder:
         Pages.folder = pathlib.Path(folder)
-        Pages.browser = Browser(chromium, WIDTH, HEIGHT)
         try:
             result = unittest.main(verbosity=2, exit=False).result
         finally:
-            Pages.browser.close()
+            if Pages.browser is not None:
+                Pages.browser.close()
     sys.exit(0 if result.wasSuccessful() else 1)
 
 
 class PageTest(unittest.TestCase):
     """A test that opens pages: none may complain."""
     def setUp(self):
-        self.browser = Pages.browser
+        self.browser = Pages.shared_browser()
         self.browser.complaints.clear()
 
     def tearDown(self):

@@ -13,7 +13,7 @@ import sys
 
 # The law of rough joints is evaluated at each point in each iteration: rounded functions would take most of the time.
 UNROUNDED = {"mechanics/contact/rough_joint.cpp"}
-# What these compute is a figure, a reference or a report, not a run's result.
+# Figures, references and reports, which follow from the results of runs.
 REPORTS = ("apps/program/",)
 ROUNDED = re.compile(r"(?:std::(?:a?(?:sin|cos|tan)h?|atan2|cbrt|exp[2m1]*|log(?:10|2|1p)?|pow|hypot|[lt]gamma|erfc?)(?=\(|[,}])|"
                      r"Eigen::AngleAxis\w*)")

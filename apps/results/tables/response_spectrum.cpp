@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 
 #include "geometry/exact/rounded_functions.hpp"
@@ -31,16 +32,24 @@ class Oscillator {
   [[nodiscard]] double frequency() const { return w_; }
 
  private:
+  /// Displacement and velocity after a step by those before it.
+  struct FreeMotion {
+    double uu = 1.0, uv = 0.0, vu = 0.0, vv = 1.0;
+  };
+
   void set_step(double length) {
     if (length == step_) return;
     step_ = length;
+    const auto [known, is_new] = known_.try_emplace(length);
+    if (is_new) known->second = motion_after(length);
+    free_ = known->second;
+  }
+
+  [[nodiscard]] FreeMotion motion_after(double length) const {
     const double decay = correctly_rounded::exp(-z_ * w_ * length);
-    const double c = decay * correctly_rounded::cos(wd_ * length),
-                 s = decay * correctly_rounded::sin(wd_ * length);
-    uu_ = c + z_ * w_ / wd_ * s;
-    uv_ = s / wd_;
-    vu_ = -w_ * w_ / wd_ * s;
-    vv_ = c - z_ * w_ / wd_ * s;
+    const double c = decay * correctly_rounded::cos(wd_ * length);
+    const double s = decay * correctly_rounded::sin(wd_ * length);
+    return {c + z_ * w_ / wd_ * s, s / wd_, -w_ * w_ / wd_ * s, c - z_ * w_ / wd_ * s};
   }
 
   /// Equation (2): the difference from the particular solution moves freely.
@@ -48,8 +57,8 @@ class Oscillator {
     const double start = -acceleration / (w_ * w_) + 2.0 * z_ * slope / (w_ * w_ * w_);
     const double rate = -slope / (w_ * w_);
     const double u = u_ - start, v = v_ - rate;
-    const double next_u = uu_ * u + uv_ * v + start + rate * step_;
-    const double next_v = vu_ * u + vv_ * v + rate;
+    const double next_u = free_.uu * u + free_.uv * v + start + rate * step_;
+    const double next_v = free_.vu * u + free_.vv * v + rate;
     note_largest(next_u, next_v);
     u_ = next_u;
     v_ = next_v;
@@ -73,7 +82,9 @@ class Oscillator {
   }
 
   double w_, z_, wd_, longest_step_;
-  double step_ = 0.0, uu_ = 1.0, uv_ = 0.0, vu_ = 0.0, vv_ = 1.0;
+  std::map<double, FreeMotion> known_;  ///< by length: those of a record's steps differ by rounding
+  double step_ = 0.0;
+  FreeMotion free_;
   double u_ = 0.0, v_ = 0.0, largest_ = 0.0;
 };
 

@@ -12,7 +12,7 @@ struct FloatFaults {
 
 void forget_float_faults();
 
-/// Those of this thread since it last forgot them. Where there is no such count, those that the result shows.
+/// Faults of this thread since it last forgot them; where a system does not count them, those that the result shows.
 [[nodiscard]] FloatFaults float_faults(double result);
 
 }  // namespace ashlar

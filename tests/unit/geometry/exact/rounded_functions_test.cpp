@@ -47,6 +47,13 @@ TEST(RoundedFunctions, NoOtherDoubleIsNearer) {
     ASSERT_TRUE(is_nearest(hypot(x, y), multi::sqrt(Many(x) * x + Many(y) * y))) << x << ", " << y;
     const Many half_circle = boost::math::constants::pi<Many>();
     ASSERT_TRUE(is_nearest(sin_of_degrees(y), multi::sin(Many(y) * half_circle / 180))) << y;
+    ASSERT_TRUE(is_nearest(cos_of_degrees(y), multi::cos(Many(y) * half_circle / 180))) << y;
+    ASSERT_TRUE(is_nearest(tan_of_degrees(y), multi::tan(Many(y) * half_circle / 180))) << y;
+    ASSERT_TRUE(is_nearest(degrees_of_atan2(x, y), multi::atan2(Many(x), Many(y)) * 180 / half_circle))
+        << x << ", " << y;
+    ASSERT_TRUE(is_nearest(asinh(x), multi::asinh(Many(x)))) << x;
+    ASSERT_TRUE(is_nearest(log10(std::abs(x)), multi::log10(Many(std::abs(x))))) << x;
+    ASSERT_TRUE(is_nearest(log1p(unit), multi::log1p(Many(unit)))) << unit;
     ASSERT_TRUE(is_nearest(degrees_of_atan(y), multi::atan(Many(y)) * 180 / half_circle)) << y;
   }
 }
