@@ -73,7 +73,7 @@ TEST(BoltsInARun, ABlockSwingsOnTwoBarsWithItsEnergy) {
   settings.time_step = 2e-3;
   settings.integrator = Integrator::average_acceleration;
   // A pendulum: both bars stay parallel.
-  Simulation simulation = hanging(0, four_bars(1e7), settings, {{1.0, 0.0, 0.0}, {}});
+  Simulation simulation = hanging(0, four_bars(1e7), settings, {.velocity = {1.0, 0.0, 0.0}});
   const double start = simulation.ledger().balance();
   double highest = 0.0;
   for (int k = 0; k < 500; ++k) {
