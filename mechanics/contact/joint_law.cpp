@@ -30,6 +30,7 @@ PointLaw point_law(const JointLaw& law, double area, bool intact, double damage)
   point.dilation.tangent = law.dilation;
   if (law.crushes() && area > 0.0) point.crushing = law.compressive_strength * area;
   point.roughness = point_roughness(law.roughness, area, damage);
+  point.largest_closure = law.largest_closure;
   if (law.fracture.given()) point.bond = bond_of(law, area);
   if (point.bond.softens()) point.set_damage(damage);
   if (!intact) point.fail();
@@ -60,9 +61,9 @@ void set_normal_energy(const PointLaw& law, double gap, const PointForce& at, Po
   // The potential of a force that yields goes on linearly.
   const bool yields = law.yields() && at.normal < -law.tension;
   const double elastic = yields ? law.tension / law.normal_stiffness : gap;
-  response.normal_energy =
-      0.5 * law.normal_stiffness * elastic * elastic + (yields ? law.tension * (gap - elastic) : 0.0);
-  if (damps) response.damped += taken_by_normal(law, -law.normal_stiffness * gap, response.force[0], gap);
+  const NormalSpring spring = law.normal_spring();
+  response.normal_energy = spring.energy(-elastic) + (yields ? law.tension * (gap - elastic) : 0.0);
+  if (damps) response.damped += taken_by_normal(law, spring.force(-gap), response.force[0], gap);
 }
 
 /// Sets energies of the shear spring and its dashpot at the end of a step. @param slip elastic, m
@@ -137,6 +138,12 @@ void set_mean_normal(const PointLaw& law, const PointResponse& start, double sta
   }
 }
 
+void set_mean_compression(const PointLaw& law, double start_gap, double end_gap, MeanResponse& mean) {
+  const MeanCompression compression = law.normal_spring().mean_compression(-start_gap, -end_gap);
+  mean.force[0] = compression.force;
+  mean.tangent(0, 0) = compression.slope;
+}
+
 /// Share of a step in which a point is closed, its gap linear in time, and the derivative by the end gap.
 struct ClosedShare {
   double value;
@@ -182,6 +189,8 @@ MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double s
   MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, 0.0};
   if (crushes)
     set_mean_crushing(law, start_gap - closure, end_gap - closure, mean);
+  else if (law.normal_spring().stiffens())
+    set_mean_compression(law, start_gap, end_gap, mean);
   else
     set_mean_normal(law, start, seen_start, result.end, seen_end, mean);
   result.end.dilation += closure;

@@ -38,6 +38,9 @@
 //     N = min(-kn g, P),    c = max(0, -g - P/kn),
 // friction is that under N, and P c is dissipated. Such a point has a spring without multiplier, dashpot or dilation.
 //
+// A joint that stiffens as it closes (normal_spring.hpp, notes/joint_closure.md) has N(-g) of its curve in place of -kn g. It
+// has a spring without multiplier, without tension and without compressive strength.
+//
 // A rough joint (rough_joint.hpp) has the bound tau(N / A) A in place of N tan(phi), also where N is a mean force.
 //
 // Damping (notes/joint_damping.md): a dashpot parallel to each spring, before the slider, while the point is closed.
@@ -52,6 +55,7 @@
 #include <optional>
 
 #include "mechanics/contact/bond_damage.hpp"
+#include "mechanics/contact/normal_spring.hpp"
 #include "mechanics/contact/rough_joint.hpp"
 
 namespace ashlar {
@@ -96,6 +100,9 @@ struct JointLaw {
   std::optional<double> restitution = std::nullopt;
   /// Pa, > 0: plastic cap of normal pressure. In limit analysis solver/limit/crushing_joints.hpp
   double compressive_strength = std::numeric_limits<double>::infinity();
+  /// m, > 0: `normal_stiffness` is that of the joint before it closes (NormalSpring). Without tensile strength,
+  /// compressive strength and multipliers
+  double largest_closure = std::numeric_limits<double>::infinity();
   /// With it: `friction` and the residual friction are those of the worn joint; area springs, no gradual damage, no
   /// compressive strength
   Roughness roughness = {};
@@ -148,11 +155,13 @@ struct PointLaw {
   bool is_static = false;  ///< tensile strength that cannot fail yields instead of opening
   double crushing = std::numeric_limits<double>::infinity();  ///< f A, N: largest normal force
   PointRoughness roughness = {};
+  double largest_closure = std::numeric_limits<double>::infinity();  ///< m; infinite: a linear spring
 
   /// True if tension is bounded by a plateau of the normal force.
   [[nodiscard]] bool yields() const { return is_static && tension > 0.0 && tension <= residual[2]; }
   /// True if pressure has a plastic cap.
   [[nodiscard]] bool crushes() const { return crushing < std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] NormalSpring normal_spring() const { return {normal_stiffness, largest_closure}; }
   /// True if its strength can fail.
   [[nodiscard]] bool weakens() const {
     return friction > residual[0] || cohesion > residual[1] || tension > residual[2];

@@ -1,8 +1,8 @@
 // Force of a contact point at the end of a step as a function of its place: the part of the law of joint_law.hpp that
 // every guess of a step needs. point_response() adds derivatives, energies and dissipation.
 //
-// The functions take any law with the members of PointLaw. One without `dilation`, `dashpots`, `yields`, `crushing` or
-// `roughness` has none of these, and takes no time for them.
+// The functions take any law with the members of PointLaw. One without `dilation`, `dashpots`, `yields`, `crushing`,
+// `roughness` or `normal_spring` has none of these, and takes no time for them.
 #pragma once
 
 #include <Eigen/Dense>
@@ -45,7 +45,8 @@ struct FrequentLaw {
 /// True if FrequentLaw has all that acts at the point.
 [[nodiscard]] inline bool is_frequent(const PointLaw& law) {
   return law.dilation.tangent == 0.0 && law.dashpots.normal == 0.0 && law.dashpots.shear == 0.0 &&
-         !law.bond.softens() && !law.yields() && !law.crushes() && !law.roughness.given();
+         !law.bond.softens() && !law.yields() && !law.crushes() && !law.roughness.given() &&
+         !law.normal_spring().stiffens();
 }
 
 /// tan(psi) over a step and its decrease with the gap at its end.
@@ -91,12 +92,34 @@ template <class Law>
 /// The normal force at a gap without slip, N; may be negative beyond the tensile strength.
 template <class Law>
 [[nodiscard]] double normal_at(const Law& law, double gap) {
-  const double normal = law.normal_multiplier - normal_resistance(law) * gap;
+  double normal = law.normal_multiplier - normal_resistance(law) * gap;
+  if constexpr (requires { law.normal_spring(); }) {
+    if (const NormalSpring spring = law.normal_spring(); spring.stiffens())
+      normal = spring.force(-gap) - law.dashpots.normal * gap;
+  }
   if constexpr (requires { law.dashpots; }) {
     if (law.dashpots.normal > 0.0)
       return normal + law.dashpots.normal * damped_gap(law, law.dashpots.start_gap);
   }
   return normal;
+}
+
+/// -d normal_at / d gap, N/m.
+template <class Law>
+[[nodiscard]] double normal_slope(const Law& law, double gap) {
+  if constexpr (requires { law.normal_spring(); }) {
+    if (const NormalSpring spring = law.normal_spring(); spring.stiffens())
+      return spring.slope(-gap) + law.dashpots.normal;
+  }
+  return normal_resistance(law);
+}
+
+/// The normal force of a point that has dilated. @param normal normal_at(law, gap). @param tangent tan(psi)
+/// @param slip m
+template <class Law>
+[[nodiscard]] double dilated_normal(const Law& law, double normal, double gap, double tangent, double slip) {
+  if (law.normal_spring().stiffens()) return normal_at(law, gap - tangent * slip);
+  return normal + normal_resistance(law) * tangent * slip;
 }
 
 /// The shear force of a point that does not slide, N. @param slip m
@@ -173,12 +196,13 @@ template <class Law>
 /// A point at a place: its force, and the values that its derivatives and energies follow from.
 struct PointForce {
   ContactState state = ContactState::open;
-  bool parted = true;     ///< normal spring open; a bridged point transmits shear then
-  double normal = 0.0;    ///< without the bound of tension, N
-  double closure = 0.0;   ///< of a point that crushes, m
-  Eigen::Vector2d trial;  ///< shear force as if locked, N
-  double length = 0.0;    ///< of `trial`
-  double bound = 0.0;     ///< of the shear force, N
+  bool parted = true;      ///< normal spring open; a bridged point transmits shear then
+  double normal = 0.0;     ///< without the bound of tension, N
+  double closure = 0.0;    ///< of a point that crushes, m
+  double stiffness = 0.0;  ///< -d normal / d gap without slip, N/m
+  Eigen::Vector2d trial;   ///< shear force as if locked, N
+  double length = 0.0;     ///< of `trial`
+  double bound = 0.0;      ///< of the shear force, N
   StepDilation dilation = {};
   double slid = 0.0;                                ///< slip of a point that dilates, m
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, in the frame (n, t1, t2)
@@ -204,14 +228,16 @@ template <class Law>
   if constexpr (requires { law.dilation; }) {
     const double resistance = shear_resistance(law);
     if (!locked && at.dilation.tangent > 0.0 && resistance > 0.0) {
-      const double lift = normal_resistance(law) * at.dilation.tangent;
+      const double tangent = at.dilation.tangent, undilated = at.normal;
       at.slid = plastic_slip(at.length, resistance, [&](double travel) {
-        const ShearBound bound = shear_bound(law, at.normal + lift * travel, at.dilation.tangent);
-        return ShearBound{bound.value, bound.slope * lift};
+        const ShearBound bound =
+            shear_bound(law, dilated_normal(law, undilated, gap, tangent, travel), tangent);
+        return ShearBound{bound.value, bound.slope * (normal_slope(law, gap - tangent * travel) * tangent)};
       });
-      at.normal += lift * at.slid;
+      at.normal = dilated_normal(law, undilated, gap, tangent, at.slid);
     }
   }
+  at.stiffness = normal_slope(law, gap - at.dilation.tangent * at.slid);
   at.parted = !yields && at.normal < -(law.tension + normal_resistance(law) * law.rounding);
   if (!at.parted) at.force[0] = std::max(at.normal, -law.tension);
   if (at.parted && law.held_limit <= 0.0 && !law.bridged) return at;
@@ -234,7 +260,7 @@ template <class Law>
   PointDerivative result;
   bool yields = false;
   if constexpr (requires { law.yields(); }) yields = law.yields() && at.normal < -law.tension;
-  if (!at.parted) result.tangent(0, 0) = yields || at.closure > 0.0 ? 0.0 : normal_resistance(law);
+  if (!at.parted) result.tangent(0, 0) = yields || at.closure > 0.0 ? 0.0 : at.stiffness;
   if (at.state == ContactState::open) return result;
   const double resistance = shear_resistance(law);
   if (at.state == ContactState::locked) {

@@ -53,14 +53,14 @@ DamageState damage_at(const PointLaw& law, double gap, double normal, double tri
 }
 
 /// The normal spring at the end of a step.
-struct NormalSpring {
+struct BondSpring {
   double force;      ///< N, N
   double stiffness;  ///< secant, N/m
   double energy;     ///< J
   bool open;
 };
 
-NormalSpring normal_spring(const PointLaw& law, double gap, double damage) {
+BondSpring bond_spring(const PointLaw& law, double gap, double damage) {
   const bool bonded = is_bonded_in_tension(law, damage);
   if (gap <= 0.0 || bonded) {
     const double stiffness = gap > 0.0 ? law.bond.stiffness(damage) : law.normal_stiffness;
@@ -127,7 +127,7 @@ PointResponse softened_response(const PointLaw& law, double gap, const Eigen::Ve
   const DamageState damage = damage_at(law, gap, law.normal_stiffness * std::max(-gap, 0.0), length);
   response.damage = damage.value;
   response.fractured = fractured_at_end(law.bond, gap, damage);
-  const NormalSpring normal = normal_spring(law, gap, damage.value);
+  const BondSpring normal = bond_spring(law, gap, damage.value);
   response.force[0] = normal.force;
   response.tangent(0, 0) = normal.stiffness;
   response.normal_energy = normal.energy;
@@ -267,14 +267,13 @@ MeanBounds mean_bounds(const PointLaw& law, double start, double end, double tri
 
 /// Sets damage and normal spring at the end of a step. @param start gap, m. @param gap at the end, m
 /// @param damage that of MeanBounds
-NormalSpring set_end_normal(const PointLaw& law, double start, double gap, double damage,
-                            PointResponse& end) {
+BondSpring set_end_normal(const PointLaw& law, double start, double gap, double damage, PointResponse& end) {
   const BondDamage& bond = law.bond;
   end.damage = bond.at_opening(gap, damage);
   const double opened = std::max(start, 0.0);
   end.fractured = 0.5 * (bond.stiffness(bond.start) - bond.stiffness(damage)) * opened * opened +
                   bond.energy_of_tension(end.damage - damage);
-  const NormalSpring spring = normal_spring(law, gap, end.damage);
+  const BondSpring spring = bond_spring(law, gap, end.damage);
   end.force[0] = spring.force;
   end.tangent(0, 0) = spring.stiffness;
   end.normal_energy = spring.energy;
@@ -339,7 +338,7 @@ AveragedStep softened_step(const PointLaw& law, const PointResponse& start,
                     {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, limit}};
   PointResponse& end = step.end;
   MeanResponse& mean = step.mean;
-  const NormalSpring spring = set_end_normal(law, start_gap, end_gap, bounds.damage, end);
+  const BondSpring spring = set_end_normal(law, start_gap, end_gap, bounds.damage, end);
   set_mean_normal(law, bounds.normal, spring.stiffness, mean);
   if (limit <= 0.0 && spring.open) return step;
   if (!spring.open) end.state = ContactState::locked;

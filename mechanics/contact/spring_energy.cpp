@@ -7,9 +7,9 @@
 
 namespace ashlar {
 
-double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double>& gaps, double held) {
+double rest_gap(const std::vector<NormalSpring>& springs, const std::vector<double>& gaps, double held) {
   if (held == 0.0) return std::min(0.0, *std::min_element(gaps.begin(), gaps.end()));
-  // The root of the energy is a convex function of the rest gap, so that Newton's iterates decrease monotonically to
+  // The root of the energy is a convex function of the rest gap, as that of each spring is, so that Newton's iterates decrease monotonically to
   // the solution.
   const double target = std::sqrt(2.0 * held);
   double rest = 0.0;
@@ -19,8 +19,8 @@ double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       const double depth = rest - gaps[k];
       if (!(depth > 0.0)) continue;
-      squares += stiffnesses[k] * depth * depth;
-      slope += stiffnesses[k] * depth;
+      squares += 2.0 * springs[k].energy(depth);
+      slope += springs[k].force(depth);
     }
     const double root = std::sqrt(squares);
     if (!(root > target)) return rest;
@@ -30,7 +30,7 @@ double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double
   }
 }
 
-std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std::vector<double>& gaps,
+std::vector<double> rest_gaps(const std::vector<NormalSpring>& springs, const std::vector<double>& gaps,
                               const std::vector<double>& remembered, double held) {
   const std::size_t count = gaps.size();
   const double target = std::sqrt(2.0 * held);
@@ -43,8 +43,8 @@ std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std:
     for (std::size_t k = 0; k < count; ++k) {
       const double depth = share * known[k] - gaps[k];
       if (!(depth > 0.0)) continue;
-      squares += stiffnesses[k] * depth * depth;
-      slope += stiffnesses[k] * depth * known[k];
+      squares += 2.0 * springs[k].energy(depth);
+      slope += springs[k].force(depth) * known[k];
     }
     const double value = std::sqrt(squares);
     return std::array{value, value > 0.0 ? slope / value : 0.0};
@@ -55,7 +55,7 @@ std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std:
   if (!(root(1.0)[0] < less * target)) {
     std::vector<double> lowered(count);
     for (std::size_t k = 0; k < count; ++k) lowered[k] = gaps[k] - known[k];
-    const double below = rest_gap(stiffnesses, lowered, held);
+    const double below = rest_gap(springs, lowered, held);
     for (std::size_t k = 0; k < count; ++k) rests[k] = known[k] + below;
     return rests;
   }

@@ -11,6 +11,8 @@
 #include <limits>
 #include <vector>
 
+#include "mechanics/contact/normal_spring.hpp"
+
 namespace ashlar {
 
 /// Energy of the springs of a pair of blocks, J.
@@ -25,10 +27,10 @@ struct SpringEnergy {
 inline constexpr SpringEnergy any_spring_energy{std::numeric_limits<double>::infinity(),
                                                 std::numeric_limits<double>::infinity()};
 
-/// The rest gap r <= 0 of normal springs, closest to 0, for which the sum of  k <r - g>^2 / 2  is at most `held`, m.
+/// The rest gap r <= 0 of normal springs, closest to 0, for which springs of the closures  <r - g>  hold at most `held`, m.
 /// Monotone in each gap and in `held`.
-/// @param stiffnesses k > 0, N/m, one for each point. @param gaps g, m. @param held J, >= 0 or infinity
-[[nodiscard]] double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double>& gaps,
+/// @param springs one for each point. @param gaps g, m. @param held J, >= 0 or infinity
+[[nodiscard]] double rest_gap(const std::vector<NormalSpring>& springs, const std::vector<double>& gaps,
                               double held);
 
 /// Rest gaps of re-detected normal springs, m, <= 0. All are 0, the surface, if the springs hold at most `held` then.
@@ -36,7 +38,7 @@ inline constexpr SpringEnergy any_spring_energy{std::numeric_limits<double>::inf
 /// most `held`. If the full remembered ones still hold that (to a billionth: rounding must not decide) or more, they
 /// are lowered by rest_gap().
 /// @param remembered rest gaps <= 0, m, one for each point; others as in rest_gap()
-[[nodiscard]] std::vector<double> rest_gaps(const std::vector<double>& stiffnesses,
+[[nodiscard]] std::vector<double> rest_gaps(const std::vector<NormalSpring>& springs,
                                             const std::vector<double>& gaps,
                                             const std::vector<double>& remembered, double held);
 

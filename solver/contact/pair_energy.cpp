@@ -26,13 +26,14 @@ bool ContactPair::can_be_bounded() const {
 
 void ContactPair::hold_at_most(const SpringEnergy& held) {
   if (!can_be_bounded()) return;
-  std::vector<double> stiffnesses, gaps, remembered;
+  std::vector<NormalSpring> springs;
+  std::vector<double> gaps, remembered;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    stiffnesses.push_back(laws_[k].normal_stiffness);
+    springs.push_back(laws_[k].normal_spring());
     gaps.push_back(points_[k].gap - dilation_before(k));
     remembered.push_back(std::min(0.0, gaps.back() + memory_[k].compression));
   }
-  std::vector<double> rests = rest_gaps(stiffnesses, gaps, remembered, held.normal);
+  std::vector<double> rests = rest_gaps(springs, gaps, remembered, held.normal);
   for (std::size_t k = 0; k < points_.size(); ++k) rests[k] += dilation_before(k);
   rest_at(std::move(rests));
   // Removes slip beyond the friction bound first: the comparison of energies below must not depend on its rounding

@@ -108,10 +108,11 @@ void stretch(const PointLaw& law, const ContactPoint& point, const Vector3& forc
   memory.intact = true;
   memory.in_level = true;
   memory.state = ContactState::locked;
-  memory.dilation = memory.level_dilation = normal / law.normal_stiffness;
+  const NormalSpring spring = law.normal_spring();
+  memory.dilation = memory.level_dilation = spring.closure(normal);
   memory.compression = memory.dilation - point.gap;
   memory.slip = memory.level_slip = -shear / law.shear_stiffness;
-  energy.normal += 0.5 * normal * normal / law.normal_stiffness;
+  energy.normal += spring.energy(memory.dilation);
   energy.shear += 0.5 * shear.squaredNorm() / law.shear_stiffness;
 }
 

@@ -38,10 +38,11 @@ Vector3 load_point(const PointLaw& law, const ContactPoint& point, const Vector3
     memory.shear_multiplier = shear / scale;
     return force;
   }
-  memory.dilation = memory.level_dilation = normal / law.normal_stiffness;
+  const NormalSpring spring = law.normal_spring();
+  memory.dilation = memory.level_dilation = spring.closure(normal);
   memory.compression = memory.dilation - point.gap;
   memory.slip = memory.level_slip = -shear / law.shear_stiffness;
-  energy.normal += 0.5 * normal * memory.dilation;
+  energy.normal += spring.energy(memory.dilation);
   energy.shear += 0.5 * shear.squaredNorm() / law.shear_stiffness;
   return force;
 }

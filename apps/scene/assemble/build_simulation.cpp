@@ -168,6 +168,10 @@ class JointLaws {
       result.compressive_strength = *given.compressive_strength;
       result.is_compliant = multipliers_;
     }
+    if (given.maximum_closure) {
+      result.largest_closure = *given.maximum_closure;
+      result.is_compliant = multipliers_;
+    }
     if (given.roughness) result.roughness = roughness_of(*given.roughness, result.friction);
     // One entry may give the residual and a later one a smaller strength.
     result.residual = {

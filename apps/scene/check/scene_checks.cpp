@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/scene/check/accuracy_checks.hpp"
+#include "apps/scene/check/closure_checks.hpp"
 #include "apps/scene/check/crushing_checks.hpp"
 #include "apps/scene/check/formulation_checks.hpp"
 #include "apps/scene/check/joint_checks.hpp"
@@ -315,6 +316,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
   check_joint_laws(scene, diagnostics);
   check_compressive_strengths(scene, diagnostics);
   check_roughness(scene, diagnostics);
+  check_closures(scene, diagnostics);
   check_factor_search(scene, diagnostics);
   check_names(scene, scene.water, "water", diagnostics);
   check_water(scene, diagnostics, of_blocks);

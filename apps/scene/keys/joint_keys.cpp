@@ -69,6 +69,14 @@ std::vector<Key<Struct>> keys_of_strength() {
                 "block (of the one that is not fixed); times size^2 for point springs"),
       number_or("auto", "shear_stiffness", &Struct::shear_stiffness, range::positive, "",
                 "the same units. Auto: half of the normal stiffness"),
+      number(
+          "maximum_closure", &Struct::maximum_closure, range::positive, "m",
+          "the joint stiffens as it closes: its pressure at a closure c is `normal_stiffness` c / (1 - c / "
+          "`maximum_closure`), on the same curve under load and unloading "
+          "([rule](../../../mechanics/notes/joint_closure.md)). With a `normal_stiffness`, area springs, and "
+          "without `tensile_strength`, `compressive_strength` and `fracture_energy`. None: linear, as where "
+          "a "
+          "`[[joint]]` gives a `normal_stiffness` alone"),
       number("friction_angle", &Struct::friction_angle, range::zero_to_below_90, "", "Coulomb friction"),
       number("cohesion", &Struct::cohesion, range::not_negative, "Pa",
              "of contact area; falls to `cohesion_residual` for good where the joint opens or slides"),

@@ -7,7 +7,11 @@
 namespace ashlar {
 
 void override_law(SceneJointLaw& law, const SceneJoint& joint) {
-  law.normal_stiffness = joint.normal_stiffness.value_or(law.normal_stiffness);
+  // A stiffness that is given anew has the curve given with it, or none.
+  if (joint.normal_stiffness) {
+    law.normal_stiffness = *joint.normal_stiffness;
+    law.maximum_closure.reset();
+  }
   law.shear_stiffness = joint.shear_stiffness.value_or(law.shear_stiffness);
   law.friction_angle = joint.friction_angle.value_or(law.friction_angle);
   law.cohesion = joint.cohesion.value_or(law.cohesion);
@@ -15,6 +19,7 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
   const auto replace = [](std::optional<double>& value, const std::optional<double>& given) {
     if (given) value = given;
   };
+  replace(law.maximum_closure, joint.maximum_closure);
   replace(law.compressive_strength, joint.compressive_strength);
   replace(law.friction_angle_residual, joint.friction_angle_residual);
   replace(law.cohesion_residual, joint.cohesion_residual);

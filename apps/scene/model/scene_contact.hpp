@@ -35,9 +35,11 @@ struct SceneRoughness {
 struct SceneJointLaw {
   std::optional<double> normal_stiffness;  ///< Pa/m (area springs) or N/m (point springs), > 0; empty: auto
   std::optional<double> shear_stiffness;   ///< as normal_stiffness
-  double friction_angle = 0.0;             ///< deg, 0 to less than 90
-  double cohesion = 0.0;                   ///< Pa, >= 0
-  double tensile_strength = 0.0;           ///< Pa, >= 0
+  /// m, > 0: the joint stiffens from normal_stiffness on as it closes; empty: linear
+  std::optional<double> maximum_closure;
+  double friction_angle = 0.0;                 ///< deg, 0 to less than 90
+  double cohesion = 0.0;                       ///< Pa, >= 0
+  double tensile_strength = 0.0;               ///< Pa, >= 0
   std::optional<double> compressive_strength;  ///< Pa, > 0; empty: unlimited
   /// Strength of failed or later contacts; at most the values above. Empty: friction_angle, no cohesion, no tensile strength
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
@@ -81,6 +83,7 @@ struct SceneJoint {
   /// Outer optional empty: not given. Inner optional empty: given as "auto".
   std::optional<std::optional<double>> normal_stiffness;
   std::optional<std::optional<double>> shear_stiffness;
+  std::optional<double> maximum_closure;
   std::optional<double> friction_angle;
   std::optional<double> cohesion;
   std::optional<double> tensile_strength;

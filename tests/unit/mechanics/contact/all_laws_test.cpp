@@ -57,6 +57,20 @@ std::vector<NamedLaw> all_laws() {
     law.roughness = {10.0, 3e6, law.friction};
     law.dilation = 0.2;
   });
+  // At 40 um the force is five times that of a linear spring.
+  add("closing", [](JointLaw& law) { law.largest_closure = 5e-5; });
+  add("closing with cohesion", [](JointLaw& law) {
+    law.largest_closure = 5e-5;
+    law.cohesion = 2e4;
+  });
+  add("closing and rough", [](JointLaw& law) {
+    law.largest_closure = 5e-5;
+    law.roughness = {10.0, 3e6, law.friction};
+  });
+  add("closing with dilation", [](JointLaw& law) {
+    law.largest_closure = 5e-5;
+    law.dilation = 0.2;
+  });
   return laws;
 }
 

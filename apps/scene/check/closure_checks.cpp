@@ -1,0 +1,48 @@
+#include "apps/scene/check/closure_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/scene/check/joint_tables.hpp"
+
+namespace ashlar {
+namespace {
+
+void check_closure(const Scene& scene, const JointTablePath& table, Diagnostics& diagnostics) {
+  const SceneJointLaw& law = table.law;
+  if (!law.maximum_closure || law.tied) return;
+  const auto refuse = [&](std::initializer_list<const char*> keys, const std::string& message) {
+    for (const char* key : keys) {
+      const std::string place = fmt::format("{}.{}", table.path, key);
+      if (!scene.places.contains(place)) continue;
+      diagnostics.error(scene.places.key(place), message);
+      return;
+    }
+  };
+  if (!law.normal_stiffness)
+    refuse(
+        {"maximum_closure"},
+        "maximum_closure without normal_stiffness, a number is needed: the stiffness of the joint before it "
+        "closes");
+  if (scene.contact.springs != SceneContact::Springs::area)
+    refuse({"maximum_closure"},
+           "maximum_closure with point springs, which have no pressure; springs = \"area\" is needed");
+  const auto exclude = [&](const char* key, bool has) {
+    if (has)
+      refuse(
+          {key, "tied", "maximum_closure"},
+          fmt::format("{} beside maximum_closure; a joint that stiffens as it closes has neither bonds nor "
+                      "crushing: leave one of the two out",
+                      key));
+  };
+  exclude("tensile_strength", law.tensile_strength > 0.0);
+  exclude("compressive_strength", law.compressive_strength.has_value());
+  exclude("fracture_energy", law.fracture_energy.has_value());
+}
+
+}  // namespace
+
+void check_closures(const Scene& scene, Diagnostics& diagnostics) {
+  for (const JointTablePath& table : tables_of_joints(scene)) check_closure(scene, table, diagnostics);
+}
+
+}  // namespace ashlar

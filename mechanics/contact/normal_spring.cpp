@@ -1,0 +1,68 @@
+#include "mechanics/contact/normal_spring.hpp"
+
+#include <algorithm>
+
+#include "geometry/exact/rounded_functions.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Closure from which on the tangent replaces the curve, over the largest closure: the curve has no force beyond that.
+constexpr double end_of_curve = 0.99;
+
+/// -u - ln(1 - u) = u^2/2 + u^3/3 + ..., for 0 <= u < 1, without cancellation.
+double excess(double u) {
+  constexpr double small = 0.05;  // 12 terms of the series are exact to rounding
+  constexpr int last_power = 13;
+  if (u > small) return -u - correctly_rounded::log1p(-u);
+  double sum = 0.0;
+  for (int power = last_power; power >= 2; --power) sum = sum * u + 1.0 / power;
+  return sum * u * u;
+}
+
+}  // namespace
+
+double NormalSpring::force_of_curve(double closure) const {
+  const double end = end_of_curve * largest_closure;
+  if (closure <= end) return stiffness * closure / (1.0 - closure / largest_closure);
+  return force_of_curve(end) + slope_of_curve(end) * (closure - end);
+}
+
+double NormalSpring::slope_of_curve(double closure) const {
+  const double left = 1.0 - std::min(closure / largest_closure, end_of_curve);
+  return stiffness / (left * left);
+}
+
+double NormalSpring::closure(double force) const {
+  if (!stiffens() || !(force > 0.0)) return force / stiffness;
+  const double end = end_of_curve * largest_closure;
+  const double at_end = force_of_curve(end);
+  if (force <= at_end) return force / (stiffness + force / largest_closure);
+  return end + (force - at_end) / slope_of_curve(end);
+}
+
+double NormalSpring::work(double from, double to) const {
+  const double end = end_of_curve * largest_closure;
+  const double start = std::max(from, 0.0);
+  double sum = 0.0;
+  if (start < std::min(to, end)) {
+    const double x = start / largest_closure;
+    const double u = (std::min(to, end) / largest_closure - x) / (1.0 - x);
+    sum += stiffness * largest_closure * largest_closure * (excess(u) + u * x);
+  }
+  const double beyond = std::max(start, end);
+  if (to > beyond) sum += 0.5 * (force_of_curve(beyond) + force_of_curve(to)) * (to - beyond);
+  return sum;
+}
+
+MeanCompression NormalSpring::mean_compression(double from, double to) const {
+  constexpr double small = 1e-4;  // of the closure that is left: two terms are exact to its square
+  const auto [low, high] = std::minmax(from, to);
+  if (high <= 0.0) return {0.0, 0.0};
+  const double left = largest_closure - std::min(high, end_of_curve * largest_closure);
+  const double mean = high > low ? work(low, high) / (high - low) : force(to);
+  if (low > 0.0 && high - low <= small * left) return {mean, 0.5 * slope(from + 2.0 / 3.0 * (to - from))};
+  return {mean, (std::max(force(to), 0.0) - mean) / (to - from)};
+}
+
+}  // namespace ashlar
