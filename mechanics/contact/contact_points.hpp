@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct ContactPointSettings {
   /// Multipliers leave almost no gap under pressure, so that gaps do not show where pressure ends.
   bool multipliers = false;
   double known_overlap = 0.0;  ///< m, >= 0: points with this initial overlap start without force
+  /// JointLaw::largest_closure, m: where a joint is closed unevenly, rules are as fine as its curve needs
+  double largest_closure = std::numeric_limits<double>::infinity();
 };
 
 /// A face of a, then one of b.
@@ -58,10 +61,12 @@ struct RuledOverlap {
 /// degree of polygon_rule()
 [[nodiscard]] PolygonRule rule_of(const std::vector<Eigen::Vector2d>& outline, int degree);
 
-/// True if the end of pressure is unchanged since the points were made, or pressure still does not end inside.
+/// True if the end of pressure is unchanged since the points were made, or pressure still does not end inside, and the rule is
+/// fine enough.
 /// @param gaps of the rule on the whole overlap, m. @param tolerance m, smaller gaps count as 0
-[[nodiscard]] bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps,
-                                           double tolerance);
+/// @param largest_closure as ContactPointSettings
+[[nodiscard]] bool rule_lasts(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance,
+                              double largest_closure);
 
 /// Contact points of a pair of blocks.
 struct ContactPoints {

@@ -27,8 +27,8 @@ Vector3 displacement(const ContactBody& body, const Vector3& material, const Eig
 }
 
 /// True if pressure ends in each overlap where it did. @param points of the pair, at the present state
-bool ends_as_before(const ContactCache& cache, const ContactBody& a, const ContactBody& b,
-                    const RelativeMotion& motion, const std::vector<ContactPoint>& points) {
+bool rules_last(const ContactCache& cache, const ContactBody& a, const ContactBody& b,
+                const RelativeMotion& motion, const std::vector<ContactPoint>& points) {
   for (const RuledOverlap& overlap : cache.found.overlaps) {
     std::vector<double> gaps;
     gaps.reserve(overlap.count);
@@ -39,7 +39,7 @@ bool ends_as_before(const ContactCache& cache, const ContactBody& a, const Conta
         gaps.push_back(point.gap + point.normal.dot(displacement(a, point.material_a, motion.changes[0]) -
                                                     displacement(b, point.material_b, motion.changes[1])));
     }
-    if (!pressure_ends_as_before(overlap, gaps, cache.law.rounding)) return false;
+    if (!rule_lasts(overlap, gaps, cache.law.rounding, cache.law.largest_closure)) return false;
   }
   return true;
 }
@@ -88,7 +88,7 @@ std::optional<KeptContacts> kept_contacts(
     }
     point.gap += point.normal.dot(apart);
   }
-  if (!ends_as_before(*cache, a, b, motion, kept.points)) return std::nullopt;
+  if (!rules_last(*cache, a, b, motion, kept.points)) return std::nullopt;
   return kept;
 }
 

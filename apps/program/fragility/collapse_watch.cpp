@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/scene/check/water_checks.hpp"
+#include "geometry/exact/rounded_functions.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -17,8 +18,8 @@ double tilt_of(const Vector3& turn, const Vector3& up) {
   const double angle = turn.norm();
   if (!(angle > 0.0)) return 0.0;
   const double along = turn.dot(up) / angle;
-  const double cosine = std::cos(angle * degree);
-  return std::acos(std::clamp(cosine + (1.0 - cosine) * along * along, -1.0, 1.0)) / degree;
+  const double cosine = correctly_rounded::cos_of_degrees(angle);
+  return correctly_rounded::acos(std::clamp(cosine + (1.0 - cosine) * along * along, -1.0, 1.0)) / degree;
 }
 
 }  // namespace

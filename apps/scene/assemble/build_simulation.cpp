@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <exception>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 
@@ -136,6 +138,10 @@ class JointLaws {
         restitution_(scene, *summaries_) {
     source_.reserve(blocks.size());
     for (const BlockSummary& block : blocks) source_.push_back(block.stiffness);
+    note_tangents({scene.contact.law.friction_angle, scene.contact.law.friction_angle_residual,
+                   scene.contact.law.dilation_angle});
+    for (const SceneJoint& joint : scene.joint)
+      note_tangents({joint.friction_angle, joint.friction_angle_residual, joint.dilation_angle});
     const std::vector<std::vector<std::size_t>> kinds = kinds_of_blocks(scene);
     if (!multipliers_ || asked_for_) note_choices(kinds, choices);
     if (restitution_.chooses()) note_restitution(kinds, choices);
@@ -161,7 +167,7 @@ class JointLaws {
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
     if (given.tie || given.fracture_energy) set_springs_of_bond(a, b, given, result);
-    result.friction = correctly_rounded::tan_of_degrees(given.friction_angle);
+    result.friction = tangent_of(given.friction_angle);
     result.cohesion = given.cohesion;
     result.tensile_strength = given.tensile_strength;
     if (given.compressive_strength) {
@@ -175,17 +181,25 @@ class JointLaws {
     if (given.roughness) result.roughness = roughness_of(*given.roughness, result.friction);
     // One entry may give the residual and a later one a smaller strength.
     result.residual = {
-        std::min(result.friction, correctly_rounded::tan_of_degrees(
-                                      given.friction_angle_residual.value_or(given.friction_angle))),
+        std::min(result.friction, tangent_of(given.friction_angle_residual.value_or(given.friction_angle))),
         std::min(result.cohesion, given.cohesion_residual.value_or(0.0)),
         std::min(result.tensile_strength, given.tensile_strength_residual.value_or(0.0))};
     // Several entries together must not generate energy either.
-    result.dilation =
-        std::min(correctly_rounded::tan_of_degrees(given.dilation_angle), result.residual->friction);
+    result.dilation = std::min(tangent_of(given.dilation_angle), result.residual->friction);
     result.damping = given.damping;
     result.restitution = restitution_.of(a, b, given);
     result.fracture = given.fracture_energy.value_or(FractureEnergy{});
     return result;
+  }
+
+  /// Laws are asked for by the thousand in each step: tangents of the angles of a scene are computed once.
+  void note_tangents(std::initializer_list<std::optional<double>> angles) {
+    for (const std::optional<double>& degrees : angles)
+      if (degrees) tangents_.try_emplace(*degrees, correctly_rounded::tan_of_degrees(*degrees));
+  }
+  [[nodiscard]] double tangent_of(double degrees) const {
+    const auto known = tangents_.find(degrees);
+    return known != tangents_.end() ? known->second : correctly_rounded::tan_of_degrees(degrees);
   }
 
   /// Stiffnesses that are not given: of a tie, and as much as the fracture energy needs. Such joints have springs in any
@@ -275,6 +289,7 @@ class JointLaws {
   double strength_factor_;
   JointSelection reduced_;
   std::vector<StiffnessSource> source_;  ///< (#blocks)
+  std::map<double, double> tangents_;    ///< by angle, degrees
   std::shared_ptr<const std::vector<BlockSummary>> summaries_;
   ChosenRestitution restitution_;
 };

@@ -7,29 +7,21 @@
 namespace ashlar {
 namespace {
 
-void check_closure(const Scene& scene, const JointTablePath& table, Diagnostics& diagnostics) {
+void check_closure(const Scene& scene, const JointTablePath& table, JointFaults& faults) {
   const SceneJointLaw& law = table.law;
   if (!law.maximum_closure || law.tied) return;
-  const auto refuse = [&](std::initializer_list<const char*> keys, const std::string& message) {
-    for (const char* key : keys) {
-      const std::string place = fmt::format("{}.{}", table.path, key);
-      if (!scene.places.contains(place)) continue;
-      diagnostics.error(scene.places.key(place), message);
-      return;
-    }
-  };
-  if (!law.normal_stiffness)
-    refuse(
-        {"maximum_closure"},
-        "maximum_closure without normal_stiffness, a number is needed: the stiffness of the joint before it "
-        "closes");
+  if (!law.normal_stiffness && table.paths.size() == 1)
+    faults.report(
+        table, {"maximum_closure"},
+        "maximum_closure without normal_stiffness, a number is needed: the stiffness of the joint before "
+        "it closes");
   if (scene.contact.springs != SceneContact::Springs::area)
-    refuse({"maximum_closure"},
-           "maximum_closure with point springs, which have no pressure; springs = \"area\" is needed");
+    faults.report(table, {"maximum_closure"},
+                  "maximum_closure with point springs, which have no pressure; springs = \"area\" is needed");
   const auto exclude = [&](const char* key, bool has) {
     if (has)
-      refuse(
-          {key, "tied", "maximum_closure"},
+      faults.report(
+          table, {key, "tied", "maximum_closure"},
           fmt::format("{} beside maximum_closure; a joint that stiffens as it closes has neither bonds nor "
                       "crushing: leave one of the two out",
                       key));
@@ -42,7 +34,8 @@ void check_closure(const Scene& scene, const JointTablePath& table, Diagnostics&
 }  // namespace
 
 void check_closures(const Scene& scene, Diagnostics& diagnostics) {
-  for (const JointTablePath& table : tables_of_joints(scene)) check_closure(scene, table, diagnostics);
+  JointFaults faults(scene, diagnostics);
+  for (const JointTablePath& table : tables_of_joints(scene)) check_closure(scene, table, faults);
 }
 
 }  // namespace ashlar

@@ -8,19 +8,15 @@
 namespace ashlar {
 namespace {
 
-/// A tensile strength above the compressive one, at the key of the two that the table gives.
-void check_against_tension(const Scene& scene, const JointTablePath& table, Diagnostics& diagnostics) {
+/// A tensile strength above the compressive one.
+void check_against_tension(const JointTablePath& table, JointFaults& faults) {
   const SceneJointLaw& law = table.law;
   if (!law.compressive_strength || law.tied || law.tensile_strength <= *law.compressive_strength) return;
-  for (const char* key : {"compressive_strength", "tensile_strength", "tied"}) {
-    const std::string place = fmt::format("{}.{}", table.path, key);
-    if (!scene.places.contains(place)) continue;
-    diagnostics.error(scene.places.value(place),
-                      fmt::format("compressive_strength is below tensile_strength ({} Pa, {} Pa), at least "
-                                  "{} Pa is needed",
-                                  *law.compressive_strength, law.tensile_strength, law.tensile_strength));
-    return;
-  }
+  faults.report(
+      table, {"compressive_strength", "tensile_strength", "tied"},
+      fmt::format("compressive_strength is below tensile_strength ({} Pa, {} Pa), at least {} Pa is needed",
+                  *law.compressive_strength, law.tensile_strength, law.tensile_strength),
+      true);
 }
 
 /// An analysis without joints that crush; empty: it has them.
@@ -46,22 +42,17 @@ bool may_have_springs(const Scene& scene) {
 }
 
 /// Properties that springs which crush do not have.
-void check_other_properties(const Scene& scene, const JointTablePath& table, Diagnostics& diagnostics) {
+void check_other_properties(const Scene& scene, const JointTablePath& table, JointFaults& faults) {
   const SceneJointLaw& law = table.law;
   if (!law.compressive_strength || law.tied || !may_have_springs(scene)) return;
-  const auto exclude = [&](const std::string& key, bool has) {
-    if (!has) return;
-    for (const std::string& place : {table.path + "." + key, table.path + ".compressive_strength",
-                                     std::string("contact.compressive_strength")}) {
-      if (!scene.places.contains(place)) continue;
-      diagnostics.error(
-          scene.places.key(place),
+  const auto exclude = [&](const char* key, bool has) {
+    if (has)
+      faults.report(
+          table, {key, "compressive_strength"},
           fmt::format("{} beside compressive_strength; a joint that crushes in motion or statics has "
                       "friction, cohesion and tensile strength alone: leave one of the two out, or give "
                       "analysis.method = \"limit\"",
                       key));
-      return;
-    }
   };
   exclude("dilation_angle", law.dilation_angle > 0.0);
   exclude("damping", law.damping > 0.0);
@@ -72,7 +63,7 @@ void check_other_properties(const Scene& scene, const JointTablePath& table, Dia
 
 std::optional<std::string> first_compressive_strength(const Scene& scene) {
   for (const JointTablePath& table : tables_of_joints(scene)) {
-    const std::string key = table.path + ".compressive_strength";
+    const std::string key = table.paths.front() + ".compressive_strength";
     if (scene.places.contains(key)) return key;
   }
   return std::nullopt;
@@ -81,9 +72,10 @@ std::optional<std::string> first_compressive_strength(const Scene& scene) {
 void check_compressive_strengths(const Scene& scene, Diagnostics& diagnostics) {
   const std::optional<std::string> first = first_compressive_strength(scene);
   if (!first) return;
+  JointFaults faults(scene, diagnostics);
   for (const JointTablePath& table : tables_of_joints(scene)) {
-    check_against_tension(scene, table, diagnostics);
-    check_other_properties(scene, table, diagnostics);
+    check_against_tension(table, faults);
+    check_other_properties(scene, table, faults);
   }
   const std::string analysis = analysis_without_crushing(scene.analysis);
   if (analysis.empty()) return;

@@ -116,17 +116,19 @@ void warn_of_speed(const Scene& scene, std::size_t k, const JudgedBlock& judged,
                   largest_ordinary_strain * sound, judged.material.young_modulus));
 }
 
-/// @param key of a normal stiffness. @param concerns true if a block has joints with it
+/// @param key of a normal stiffness. @param maximum_closure given with it. @param concerns true if a block has joints with it
 template <class Concerns>
 void warn_of_stiffness(const Scene& scene, const std::string& key, double stiffness,
-                       const std::vector<JudgedBlock>& blocks, Concerns concerns, Diagnostics& diagnostics) {
+                       const std::optional<double>& maximum_closure, const std::vector<JudgedBlock>& blocks,
+                       Concerns concerns, Diagnostics& diagnostics) {
   constexpr double least_bearing_points = 3.0;
   const bool area = scene.contact.springs == SceneContact::Springs::area;
   Cause largest;
   for (const JudgedBlock& judged : blocks) {
     if (!concerns(judged.block)) continue;
     const double borne = area ? judged.weight_stress : judged.weight / least_bearing_points;
-    take_larger(largest, {borne / (stiffness * judged.size), "", &judged.block});
+    const double sinks = borne / (stiffness + (maximum_closure ? borne / *maximum_closure : 0.0));
+    take_larger(largest, {sinks / judged.size, "", &judged.block});
   }
   if (!(largest.strain > largest_ordinary_strain)) return;
   diagnostics.warning(
@@ -153,14 +155,15 @@ void warn_of_soft_blocks(const ExpandedScene& scene, const std::vector<std::opti
   for (std::size_t k = 0; k < scene.material.size(); ++k) warn_of_material(scene, k, blocks, diagnostics);
   if (scene.contact.law.normal_stiffness) {
     warn_of_stiffness(
-        scene, "contact.normal_stiffness", *scene.contact.law.normal_stiffness, blocks,
-        [](const SceneBlock&) { return true; }, diagnostics);
+        scene, "contact.normal_stiffness", *scene.contact.law.normal_stiffness,
+        scene.contact.law.maximum_closure, blocks, [](const SceneBlock&) { return true; }, diagnostics);
   }
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];
     if (!joint.normal_stiffness || !*joint.normal_stiffness) continue;
     warn_of_stiffness(
-        scene, fmt::format("joint.{}.normal_stiffness", k), **joint.normal_stiffness, blocks,
+        scene, fmt::format("joint.{}.normal_stiffness", k), **joint.normal_stiffness, joint.maximum_closure,
+        blocks,
         [&](const SceneBlock& block) {
           const auto index = static_cast<std::size_t>(&block - scene.block.data());
           if (joint.inside &&

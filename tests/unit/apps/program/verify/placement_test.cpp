@@ -84,7 +84,8 @@ constexpr const char* placed_cases =
     "forces-alone-factor restitution-heights restitution-none restitution-exchange restitution-cradle "
     "restitution-oblique plane-slide-safety wedge-safety incline-stick incline-slide "
     "block-slide-or-topple wedge shear-patch goodman-bray overturning-limit book-stack base-record "
-    "roof-wedge kinematic-block pushover-sliding pushover-corner crushed-pier";
+    "roof-wedge kinematic-block pushover-sliding pushover-corner crushed-pier joint-closure closure-uneven "
+    "closing-impact";
 
 /// Cases that only a shift leaves as they are: they have supports of some components.
 constexpr const char* moved_cases =

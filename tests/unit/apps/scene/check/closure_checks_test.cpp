@@ -41,6 +41,25 @@ TEST(ClosureChecks, BondsAndCrushingAreRefused) {
               ElementsAre(StartsWith("s.toml:7:1: error: compressive_strength beside maximum_closure; ")));
 }
 
+// Blocks A and B are matched by all entries, the sample's first.
+TEST(ClosureChecks, EntriesThatMatchTheSameBlocksCountTogether) {
+  const auto of_joints = [](const std::string& first, const std::string& second) {
+    Diagnostics diagnostics;
+    const std::string joints =
+        "blocks = [\"A\", \"B\"]\n" + first + "\n[[joint]]\nblocks = [\"*\", \"*\"]\n" + second;
+    const Scene scene = parse_scene(sample_with(7, joints), "s.toml", {}, diagnostics);
+    check_closures(scene, diagnostics);
+    return printed(diagnostics);
+  };
+  const std::string curve = "normal_stiffness = 1e10\nmaximum_closure = 3e-4";
+  EXPECT_THAT(of_joints(curve, "tensile_strength = 1e4"),
+              ElementsAre(StartsWith("s.toml:12:1: error: tensile_strength beside maximum_closure; ")));
+  EXPECT_THAT(of_joints("tensile_strength = 1e4", curve),
+              ElementsAre(StartsWith("s.toml:12:1: error: tensile_strength beside maximum_closure; ")));
+  EXPECT_THAT(of_joints(curve, "cohesion = 1e4"), IsEmpty());
+  EXPECT_THAT(of_joints(curve, "normal_stiffness = 1e10\ntensile_strength = 1e4"), IsEmpty());
+}
+
 TEST(ClosureChecks, PointSpringsHaveNoPressure) {
   EXPECT_THAT(faults_of(closing + "springs = \"point\""),
               ElementsAre(StartsWith("s.toml:5:1: error: maximum_closure with point springs, ")));

@@ -33,6 +33,17 @@ TEST(RoughnessChecks, OtherStrengthsAreRefused) {
               ElementsAre(StartsWith("s.toml:6:1: error: compressive_strength beside roughness; ")));
 }
 
+TEST(RoughnessChecks, EntriesThatMatchTheSameBlocksCountTogether) {
+  Diagnostics diagnostics;
+  const std::string joints =
+      "blocks = [\"A\", \"B\"]\n" + rough +
+      "[[joint]]\nblocks = [\"*\", \"B\"]\nfracture_energy = { tension = 1, shear = 1 }";
+  const Scene scene = parse_scene(sample_with(7, joints), "s.toml", {}, diagnostics);
+  check_roughness(scene, diagnostics);
+  EXPECT_THAT(printed(diagnostics),
+              ElementsAre(StartsWith("s.toml:11:1: error: fracture_energy beside roughness; ")));
+}
+
 TEST(RoughnessChecks, PointSpringsHaveNoPressure) {
   EXPECT_THAT(faults_of(rough + "springs = \"point\""),
               ElementsAre(StartsWith("s.toml:5:1: error: roughness with point springs, ")));
