@@ -142,7 +142,7 @@ class JointLaws {
                    scene.contact.law.dilation_angle});
     for (const SceneJoint& joint : scene.joint)
       note_tangents({joint.friction_angle, joint.friction_angle_residual, joint.dilation_angle});
-    const std::vector<std::vector<std::size_t>> kinds = kinds_of_blocks(scene);
+    const std::vector<std::vector<std::size_t>> kinds = kinds_of_blocks();
     if (!multipliers_ || asked_for_) note_choices(kinds, choices);
     if (restitution_.chooses()) note_restitution(kinds, choices);
   }
@@ -220,15 +220,8 @@ class JointLaws {
   }
 
   /// Two blocks, or one, of each kind: equal blocks matched by the same globs have the same joints.
-  [[nodiscard]] std::vector<std::vector<std::size_t>> kinds_of_blocks(const Scene& scene) const {
-    std::vector<std::vector<std::size_t>> globs(source_.size());
-    for (std::size_t joint = 0; joint < scene.joint.size(); ++joint) {
-      for (const std::size_t side : {0U, 1U}) {
-        // A glob that matches every block distinguishes none.
-        if (table_->matched(joint, side).size() == source_.size()) continue;
-        for (const std::size_t block : table_->matched(joint, side)) globs[block].push_back(2 * joint + side);
-      }
-    }
+  [[nodiscard]] std::vector<std::vector<std::size_t>> kinds_of_blocks() const {
+    std::vector<std::vector<std::size_t>> globs = table_->globs_of_blocks();
     std::map<std::pair<std::vector<std::size_t>, StiffnessSource>, std::vector<std::size_t>> kinds;
     for (std::size_t k = 0; k < source_.size(); ++k) {
       std::vector<std::size_t>& blocks = kinds[{std::move(globs[k]), source_[k]}];

@@ -34,6 +34,7 @@ void check_closure(const Scene& scene, const JointTablePath& table, JointFaults&
 }  // namespace
 
 void check_closures(const Scene& scene, Diagnostics& diagnostics) {
+  if (!first_given(scene, "maximum_closure")) return;
   JointFaults faults(scene, diagnostics);
   for (const JointTablePath& table : tables_of_joints(scene)) check_closure(scene, table, faults);
 }

@@ -62,11 +62,7 @@ void check_other_properties(const Scene& scene, const JointTablePath& table, Joi
 }  // namespace
 
 std::optional<std::string> first_compressive_strength(const Scene& scene) {
-  for (const JointTablePath& table : tables_of_joints(scene)) {
-    const std::string key = table.paths.front() + ".compressive_strength";
-    if (scene.places.contains(key)) return key;
-  }
-  return std::nullopt;
+  return first_given(scene, "compressive_strength");
 }
 
 void check_compressive_strengths(const Scene& scene, Diagnostics& diagnostics) {

@@ -12,35 +12,31 @@
 namespace ashlar {
 namespace {
 
-/// All joints of a scene, those of its stages last.
-struct AllJoints {
-  Scene scene;
+/// Paths of all joints, those of stages last.
+std::vector<std::string> paths_of_joints(const Scene& scene) {
   std::vector<std::string> paths;
-};
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) paths.push_back(fmt::format("joint.{}", k));
+  for (std::size_t s = 0; s < scene.stage.size(); ++s)
+    for (std::size_t k = 0; k < scene.stage[s].joint.size(); ++k)
+      paths.push_back(fmt::format("stage.{}.joint.{}", s, k));
+  return paths;
+}
 
-AllJoints all_joints(const Scene& scene) {
-  AllJoints all{scene, {}};
-  for (std::size_t k = 0; k < scene.joint.size(); ++k) all.paths.push_back(fmt::format("joint.{}", k));
-  for (std::size_t s = 0; s < scene.stage.size(); ++s) {
-    for (std::size_t k = 0; k < scene.stage[s].joint.size(); ++k) {
-      all.scene.joint.push_back(scene.stage[s].joint[k]);
-      all.paths.push_back(fmt::format("stage.{}.joint.{}", s, k));
-    }
-  }
-  return all;
+/// The scene with all joints from its start.
+Scene with_all_joints(Scene scene) {
+  for (const SceneStage& stage : scene.stage)
+    scene.joint.insert(scene.joint.end(), stage.joint.begin(), stage.joint.end());
+  return scene;
 }
 
 /// Different lists of at least two joints that match the same pair of blocks.
 std::set<std::vector<std::size_t>> lists_of_joints(const Scene& scene) {
   const JointTable table(scene);
   // Two blocks that are matched by the same joints, or one, stand for all of them.
-  std::vector<std::vector<bool>> matched(scene.block.size(), std::vector<bool>(2 * scene.joint.size()));
-  for (std::size_t joint = 0; joint < scene.joint.size(); ++joint)
-    for (std::size_t side = 0; side < 2; ++side)
-      for (const std::size_t block : table.matched(joint, side)) matched[block][2 * joint + side] = true;
-  std::map<std::vector<bool>, std::vector<std::size_t>> kinds;
-  for (std::size_t block = 0; block < matched.size(); ++block)
-    if (auto& kind = kinds[matched[block]]; kind.size() < 2) kind.push_back(block);
+  std::map<std::vector<std::size_t>, std::vector<std::size_t>> kinds;
+  const std::vector<std::vector<std::size_t>> globs = table.globs_of_blocks();
+  for (std::size_t block = 0; block < globs.size(); ++block)
+    if (auto& kind = kinds[globs[block]]; kind.size() < 2) kind.push_back(block);
   std::set<std::vector<std::size_t>> lists;
   const auto add = [&](std::size_t a, std::size_t b) {
     if (std::vector<std::size_t> list = table.joints_between(a, b); list.size() >= 2) lists.insert(list);
@@ -55,19 +51,28 @@ std::set<std::vector<std::size_t>> lists_of_joints(const Scene& scene) {
 
 }  // namespace
 
+std::optional<std::string> first_given(const Scene& scene, const std::string& key) {
+  const auto given = [&](const std::string& path) { return scene.places.contains(path + "." + key); };
+  if (given("contact")) return "contact." + key;
+  for (const std::string& path : paths_of_joints(scene))
+    if (given(path)) return path + "." + key;
+  return std::nullopt;
+}
+
 std::vector<JointTablePath> tables_of_joints(const Scene& scene) {
   std::vector<JointTablePath> tables = {{{"contact"}, scene.contact.law}};
-  const AllJoints all = all_joints(scene);
-  for (std::size_t k = 0; k < all.paths.size(); ++k) {
-    tables.push_back({{all.paths[k]}, scene.contact.law});
-    override_law(tables.back().law, all.scene.joint[k]);
+  const Scene all = with_all_joints(scene);
+  const std::vector<std::string> paths = paths_of_joints(scene);
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    tables.push_back({{paths[k]}, scene.contact.law});
+    override_law(tables.back().law, all.joint[k]);
   }
-  if (all.paths.size() < 2) return tables;
-  for (const std::vector<std::size_t>& list : lists_of_joints(all.scene)) {
+  if (paths.size() < 2) return tables;
+  for (const std::vector<std::size_t>& list : lists_of_joints(all)) {
     JointTablePath table{{}, scene.contact.law};
     for (const std::size_t joint : list) {
-      table.paths.insert(table.paths.begin(), all.paths[joint]);
-      override_law(table.law, all.scene.joint[joint]);
+      table.paths.insert(table.paths.begin(), paths[joint]);
+      override_law(table.law, all.joint[joint]);
       if (table.paths.size() >= 2) tables.push_back(table);
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct JointTablePath {
       paths;  ///< as in ScenePlaces, the last entry of the scene first; [contact] alone or not at all
   SceneJointLaw law;
 };
+
+/// Path of the first key of this name in [contact], [[joint]] and [[stage.joint]], as in ScenePlaces; empty: none is given.
+[[nodiscard]] std::optional<std::string> first_given(const Scene& scene, const std::string& key);
 
 /// [contact], each [[joint]] and [[stage.joint]] over it, and those that match the same pairs of blocks together, as far as
 /// each has been reached.

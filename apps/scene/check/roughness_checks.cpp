@@ -30,6 +30,7 @@ void check_roughness_of(const Scene& scene, const JointTablePath& table, JointFa
 }  // namespace
 
 void check_roughness(const Scene& scene, Diagnostics& diagnostics) {
+  if (!first_given(scene, "roughness")) return;
   JointFaults faults(scene, diagnostics);
   for (const JointTablePath& table : tables_of_joints(scene)) check_roughness_of(scene, table, faults);
 }

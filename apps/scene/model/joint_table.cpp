@@ -55,6 +55,15 @@ bool JointTable::matches(std::size_t joint, std::size_t side, std::size_t block)
   return std::binary_search(matched(joint, side).begin(), matched(joint, side).end(), block);
 }
 
+std::vector<std::vector<std::size_t>> JointTable::globs_of_blocks() const {
+  std::vector<std::vector<std::size_t>> globs(listed_.size());
+  for (std::size_t glob = 0; glob < matched_.size(); ++glob) {
+    if (matched_[glob]->size() == globs.size()) continue;
+    for (const std::size_t block : *matched_[glob]) globs[block].push_back(glob);
+  }
+  return globs;
+}
+
 std::vector<std::size_t> JointTable::joints_between(std::size_t a, std::size_t b) const {
   std::vector<std::size_t> candidates;
   std::set_union(listed_[a].begin(), listed_[a].end(), listed_[b].begin(), listed_[b].end(),

@@ -29,6 +29,9 @@ class JointTable {
   [[nodiscard]] const std::vector<std::size_t>& matched(std::size_t joint, std::size_t side) const {
     return *matched_[2 * joint + side];
   }
+  /// For each block the globs that match it, increasing, as 2 joint + side. Blocks with the same ones have the same joints:
+  /// those that match every block are left out.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> globs_of_blocks() const;
   /// True if a joint applies to the faces made by a cut, not to all faces between the blocks it names.
   [[nodiscard]] bool is_of_cut(std::size_t joint) const { return !joints_[joint].cut.empty(); }
   /// Pairs (a < b) that match a joint and have a common face made by its cut, sorted.

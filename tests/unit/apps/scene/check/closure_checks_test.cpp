@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "unit/apps/sample_scene.hpp"
+#include "unit/apps/scene/check/faults_of_joints.hpp"
 
 namespace ashlar::test::closure_checks_test {
 namespace {
@@ -13,10 +13,7 @@ using ::testing::StartsWith;
 
 /// @param contact lines of [contact]
 std::vector<std::string> faults_of(const std::string& contact) {
-  Diagnostics diagnostics;
-  const Scene scene = parse_scene(sample_with(5, contact), "s.toml", {}, diagnostics);
-  check_closures(scene, diagnostics);
-  return printed(diagnostics);
+  return faults_of_joints(check_closures, 5, contact);
 }
 
 const std::string closing = "maximum_closure = 3e-4\nnormal_stiffness = 1e10\n";
@@ -44,12 +41,9 @@ TEST(ClosureChecks, BondsAndCrushingAreRefused) {
 // Blocks A and B are matched by all entries, the sample's first.
 TEST(ClosureChecks, EntriesThatMatchTheSameBlocksCountTogether) {
   const auto of_joints = [](const std::string& first, const std::string& second) {
-    Diagnostics diagnostics;
     const std::string joints =
         "blocks = [\"A\", \"B\"]\n" + first + "\n[[joint]]\nblocks = [\"*\", \"*\"]\n" + second;
-    const Scene scene = parse_scene(sample_with(7, joints), "s.toml", {}, diagnostics);
-    check_closures(scene, diagnostics);
-    return printed(diagnostics);
+    return faults_of_joints(check_closures, 7, joints);
   };
   const std::string curve = "normal_stiffness = 1e10\nmaximum_closure = 3e-4";
   EXPECT_THAT(of_joints(curve, "tensile_strength = 1e4"),

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "unit/apps/sample_scene.hpp"
+#include "unit/apps/scene/check/faults_of_joints.hpp"
 
 namespace ashlar::test::roughness_checks_test {
 namespace {
@@ -13,10 +13,7 @@ using ::testing::StartsWith;
 
 /// @param contact lines of [contact]
 std::vector<std::string> faults_of(const std::string& contact) {
-  Diagnostics diagnostics;
-  const Scene scene = parse_scene(sample_with(5, contact), "s.toml", {}, diagnostics);
-  check_roughness(scene, diagnostics);
-  return printed(diagnostics);
+  return faults_of_joints(check_roughness, 5, contact);
 }
 
 const std::string rough = "roughness = { jrc = 8, jcs = 5e7, length = 0.5 }\n";
@@ -34,13 +31,10 @@ TEST(RoughnessChecks, OtherStrengthsAreRefused) {
 }
 
 TEST(RoughnessChecks, EntriesThatMatchTheSameBlocksCountTogether) {
-  Diagnostics diagnostics;
   const std::string joints =
       "blocks = [\"A\", \"B\"]\n" + rough +
       "[[joint]]\nblocks = [\"*\", \"B\"]\nfracture_energy = { tension = 1, shear = 1 }";
-  const Scene scene = parse_scene(sample_with(7, joints), "s.toml", {}, diagnostics);
-  check_roughness(scene, diagnostics);
-  EXPECT_THAT(printed(diagnostics),
+  EXPECT_THAT(faults_of_joints(check_roughness, 7, joints),
               ElementsAre(StartsWith("s.toml:11:1: error: fracture_energy beside roughness; ")));
 }
 
