@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
-#include "mechanics/contact/joint_law.hpp"
-#include "mechanics/contact/spring_energy.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
+#include "mechanics/contact/laws/spring_energy.hpp"
 
 namespace ashlar {
 

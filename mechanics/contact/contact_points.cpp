@@ -59,7 +59,6 @@ int degree_of(const Search& search, const CellOverlap& cells) {
 /// p + sqrt(p^2 - 1) with each degree (notes/joint_closure.md). @param gaps of the points of a rule. @param degree of that rule
 int degree_for_closure(const std::vector<double>& gaps, int degree, double largest) {
   constexpr double accuracy = 1e-3;
-  constexpr double most_closed = 0.99;  // of the largest closure: the end of the curve (normal_spring.hpp)
   constexpr int finest = 16;
   if (gaps.empty() || !(largest < std::numeric_limits<double>::infinity())) return 0;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
@@ -67,8 +66,8 @@ int degree_for_closure(const std::vector<double>& gaps, int degree, double large
   // The points of other rules end before the corners.
   const double reach = degree == affine ? 1.0 : 1.0 + 1.0 / degree;
   const double half = 0.5 * reach * (*most - *least) / largest;
-  const double low = std::clamp(middle - half, 0.0, most_closed);
-  const double high = std::clamp(middle + half, 0.0, most_closed);
+  const double low = std::clamp(middle - half, 0.0, NormalSpring::end_of_curve);
+  const double high = std::clamp(middle + half, 0.0, NormalSpring::end_of_curve);
   if (!(high > low)) return 0;
   const double pole = (2.0 - low - high) / (high - low);
   const double fall = pole + std::sqrt(pole * pole - 1.0);

@@ -19,7 +19,7 @@
 #include "geometry/contacts/contact_search.hpp"
 #include "geometry/contacts/overlap_vertices.hpp"
 #include "mechanics/contact/contact_kinematics.hpp"
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 #include "mechanics/contact/pressure_end.hpp"
 
 namespace ashlar {

@@ -69,7 +69,7 @@ Simulation with_models(const Simulation& simulation, std::vector<BlockModel> mod
 }
 
 bool has_multipliers(const BlockSystem& system, const PairRecord& record) {
-  return system.settings().augmented && !system.law(record.a, record.b).is_compliant;
+  return system.law(record.a, record.b).has_multipliers();
 }
 
 /// The one system of equations of the corrected blocks.

@@ -20,7 +20,7 @@
 #include "geometry/contacts/contact_search.hpp"
 #include "mechanics/block/block_surface.hpp"
 #include "mechanics/contact/contact_points.hpp"
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 #include "solver/contact/pair_rows.hpp"
 
 namespace ashlar {

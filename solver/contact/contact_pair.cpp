@@ -31,7 +31,7 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, ContactP
   turning_ = std::move(patch.turning);
   cache_ = std::move(patch.cache);
   kind_.continues = start.continues;
-  if (start.continues && !law.augmented) continue_springs();
+  if (start.continues && !law.has_multipliers()) continue_springs();
   if (start.touch_within > 0.0) touch_within(start.touch_within);
   if (start.frozen) freeze_at_gap(*start.frozen);
   if (!start.moved_in_level.empty()) count_slip(start.moved_in_level);
@@ -66,15 +66,15 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vec
       memory_(std::move(memory)),
       rests_(points_.size(), 0.0),
       reduced_mass_(reduced_mass(*bodies.of_a.model, *bodies.of_b.model)),
-      kind_{tied, law.rigid || law.augmented || tied, law.area_springs, law.dilation,
-            law.augmented ? 0.0 : law.damping},
+      kind_{tied, law.rigid || law.has_multipliers() || tied, law.area_springs, law.dilation,
+            law.has_multipliers() ? 0.0 : law.damping},
       start_(3, static_cast<Eigen::Index>(points_.size())),
       rows_(std::move(rows)) {
   kind_.restitution = law.restitution;
   kind_.roughness = law.roughness;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact, memory_[k].damage));
-    if (law.augmented) {
+    if (law.has_multipliers()) {
       const double scale = multiplier_scale(points_[k]);
       const Vector3 shear = scale * memory_[k].shear_multiplier;
       laws_[k].augmented = true;

@@ -9,8 +9,8 @@
 
 #include "mechanics/contact/contact_memory.hpp"
 #include "mechanics/contact/contact_points.hpp"
-#include "mechanics/contact/spring_energy.hpp"
-#include "mechanics/contact/tie.hpp"
+#include "mechanics/contact/laws/spring_energy.hpp"
+#include "mechanics/contact/laws/tie.hpp"
 #include "solver/contact/contact_patch.hpp"
 #include "solver/contact/pair_rows.hpp"
 

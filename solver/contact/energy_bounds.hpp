@@ -1,4 +1,4 @@
-// Energy bounds of re-detected springs (mechanics/contact/spring_energy.hpp): their energy at the end of the last
+// Energy bounds of re-detected springs (mechanics/contact/laws/spring_energy.hpp): their energy at the end of the last
 // step plus the energy lost by other re-detected springs at the same block. A block that slides from one block to the
 // next so transfers the energy of its springs.
 #pragma once

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "mechanics/contact/point_force.hpp"
+#include "mechanics/contact/laws/point_force.hpp"
 #include "solver/contact/contact_pair.hpp"
 
 namespace ashlar {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
-#include "mechanics/contact/point_force.hpp"
-#include "mechanics/contact/tie.hpp"
+#include "mechanics/contact/laws/point_force.hpp"
+#include "mechanics/contact/laws/tie.hpp"
 #include "solver/contact/block_rows.hpp"
 
 namespace ashlar {

@@ -1,12 +1,12 @@
-// Tied blocks as contact points: each function of their gap (mechanics/contact/tie.hpp) is a point that never opens or
+// Tied blocks as contact points: each function of their gap (mechanics/contact/laws/tie.hpp) is a point that never opens or
 // slides, with the components of the function's coefficient along x, y and z as gap and slip.
 #pragma once
 
 #include <vector>
 
 #include "mechanics/contact/contact_memory.hpp"
-#include "mechanics/contact/joint_law.hpp"
-#include "mechanics/contact/tie.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
+#include "mechanics/contact/laws/tie.hpp"
 
 namespace ashlar {
 

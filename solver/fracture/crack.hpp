@@ -1,12 +1,12 @@
 // Cracks that appear in blocks (notes/cracks.md): what a block resists, where it cracks, and the record of its cracks.
 //
 // A crack divides a block by a plane. The parts have the motion of the whole block, and between them a joint whose
-// strength softens by its fracture energy (mechanics/contact/bond_damage.hpp).
+// strength softens by its fracture energy (mechanics/contact/laws/bond_damage.hpp).
 #pragma once
 
 #include <vector>
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 #include "mechanics/supports/face_selection.hpp"
 
 namespace ashlar {

@@ -1,4 +1,4 @@
-// Friction of rough joints (mechanics/contact/rough_joint.hpp) in limit analysis, whose cones have one coefficient.
+// Friction of rough joints (mechanics/contact/laws/rough_joint.hpp) in limit analysis, whose cones have one coefficient.
 //
 // A joint gets the friction  integral tau(sigma) dA / N  of a pressure that is linear where it is not zero, as between rigid faces
 // on springs, with the resultant of its forces: tau is concave, and eccentric forces have less friction. Forces of the programme

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/state/run_state.hpp"
 

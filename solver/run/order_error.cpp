@@ -10,7 +10,7 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/block/order_change.hpp"
-#include "mechanics/contact/tie.hpp"
+#include "mechanics/contact/laws/tie.hpp"
 #include "solver/parallel_for.hpp"
 #include "solver/run/order_error_work.hpp"
 

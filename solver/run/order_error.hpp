@@ -10,7 +10,7 @@
 // Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
 // the contacts and errors of their forces are not in it.
 //
-// The force of a tie is its stiffness times the gap over the common faces (mechanics/contact/tie.hpp), and so is known on
+// The force of a tie is its stiffness times the gap over the common faces (mechanics/contact/laws/tie.hpp), and so is known on
 // the functions of all orders. Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order or
 // whose shape allows no higher one, and those with bolts or quiet faces, whose forces are not recorded, with supports that
 // move, or with initial stress, whose energy is not that of their deformation.

@@ -69,6 +69,13 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   find_free_bodies(tied);
 }
 
+JointLaw BlockSystem::law(int a, int b) const {
+  JointLaw law = law_(a, b);
+  const bool by_multipliers = settings_.augmented && law.transmission != Transmission::springs;
+  law.transmission = by_multipliers ? Transmission::multipliers : Transmission::springs;
+  return law;
+}
+
 std::vector<PairKey> BlockSystem::make_ties(const std::vector<TieRequest>& ties) {
   std::vector<PairKey> tied;
   for (const auto& [a, b, stiffness] : ties) {

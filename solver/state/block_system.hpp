@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
-#include "mechanics/contact/joint_law.hpp"
-#include "mechanics/contact/tie.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
+#include "mechanics/contact/laws/tie.hpp"
 #include "solver/block_pair.hpp"
 #include "solver/bolts/bolt.hpp"
 #include "solver/settings.hpp"
@@ -72,7 +72,7 @@ class BlockSystem {
   /// By block: false for fixed and absent blocks, and for blocks held at present: loose ones in statics, sleeping
   /// ones in dynamics.
   [[nodiscard]] const std::vector<bool>& moving() const { return moving_; }
-  [[nodiscard]] JointLaw law(int a, int b) const { return law_(a, b); }
+  [[nodiscard]] JointLaw law(int a, int b) const;
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
   [[nodiscard]] const std::vector<TiedBlocks>& ties() const { return ties_; }
   /// Bolts and props of all stages.

@@ -12,7 +12,7 @@ import re
 import sys
 
 # The law of rough joints is evaluated at each point in each iteration: rounded functions would take most of the time.
-UNROUNDED = {"mechanics/contact/rough_joint.cpp"}
+UNROUNDED = {"mechanics/contact/laws/rough_joint.cpp"}
 # Figures, references and reports, which follow from the results of runs.
 REPORTS = ("apps/program/",)
 ROUNDED = re.compile(r"(?:std::(?:a?(?:sin|cos|tan)h?|atan2|cbrt|exp[2m1]*|log(?:10|2|1p)?|pow|hypot|[lt]gamma|erfc?)(?=\(|[,}])|"

@@ -17,10 +17,10 @@ std::string stored_stack(bool multipliers, int order) {
   blocks.emplace_back(test_support::block_of("low", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), soft, 1));
   blocks.emplace_back(
       test_support::block_of("high", Polyhedron(make_box({0.2, 0.1, 1}, {1.2, 1.1, 2})), soft, order));
-  JointLaw law{1e9, 1e9, 0.6, 1e3, 1e3, true};
-  law.augmented = multipliers;
+  const JointLaw law{1e9, 1e9, 0.6, 1e3, 1e3, true};
   SimulationSettings settings;
   settings.time_step = 1e-3;
+  settings.augmented = multipliers;
   const std::vector<InitialMotion> motion(blocks.size());
   Simulation simulation(std::move(blocks), motion, test_support::same_law(law), settings);
   if (!test_support::run_until(simulation, 5e-3)) throw std::logic_error("a seed's steps are taken");

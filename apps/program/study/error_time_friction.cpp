@@ -24,7 +24,7 @@ Simulation arch_of(const std::vector<int>& orders) {
   const double size = thick_arch.add_to(scene, rock, orders);
   choose_as_for_statics(scene, size, rock.young_modulus, tangent_of(60));
   // Multipliers of high orders redistribute over a whole joint, in a hundred iterations; springs need ten.
-  scene.settings.augmented = scene.law->augmented = scene.law->rigid = false;
+  scene.settings.augmented = scene.law->rigid = false;
   scene.law->normal_stiffness = scene.law->shear_stiffness = joint_stiffness;
   return scene.build();
 }
@@ -67,7 +67,7 @@ double sliding_error(const ErrorTimeSetting& setting) {
   scene.settings.gravity_history = {{0.0, 0.5 * pulse.duration, pulse.duration},
                                     {{0, 0, -gravity}, {pulse.peak, 0, -gravity}, {0, 0, -gravity}}};
   *scene.law = {1e9, 1e9, tangent, 0.0, 0.0, true};
-  scene.settings.augmented = scene.law->augmented = scene.law->rigid = !setting.springs;
+  scene.settings.augmented = scene.law->rigid = !setting.springs;
   scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {4, 2, 0})));
   const int block = scene.add(
       define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 0.5})), {2000, 1e8, 0.2}, setting.order));

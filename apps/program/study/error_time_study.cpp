@@ -45,7 +45,7 @@ double incline_error(const ErrorTimeSetting& setting) {
   scene.settings = settings_of(setting, {gravity * std::sin(angle), 0, -gravity * std::cos(angle)});
   *scene.law = {1e9, 1e9, tangent_of(20.0), 0.0, 0.0, !setting.incremental};
   if (setting.incremental) scene.settings.curved_surface = false;
-  scene.settings.augmented = scene.law->augmented = scene.law->rigid = !setting.springs;
+  scene.settings.augmented = scene.law->rigid = !setting.springs;
   scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {6, 2, 0})));
   const int cube =
       scene.add(block_of(setting, Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2000, 1e8, 0.2}));

@@ -163,21 +163,15 @@ class JointLaws {
                                   ? *given.normal_stiffness
                                   : automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
     result.rigid = !given.normal_stiffness;
-    result.is_compliant = multipliers_ && !asked_for_ && given.gives_stiffness();
+    if (given.keeps_springs(asked_for_)) result.transmission = Transmission::springs;
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
     if (given.tie || given.fracture_energy) set_springs_of_bond(a, b, given, result);
     result.friction = tangent_of(given.friction_angle);
     result.cohesion = given.cohesion;
     result.tensile_strength = given.tensile_strength;
-    if (given.compressive_strength) {
-      result.compressive_strength = *given.compressive_strength;
-      result.is_compliant = multipliers_;
-    }
-    if (given.maximum_closure) {
-      result.largest_closure = *given.maximum_closure;
-      result.is_compliant = multipliers_;
-    }
+    if (given.compressive_strength) result.compressive_strength = *given.compressive_strength;
+    if (given.maximum_closure) result.largest_closure = *given.maximum_closure;
     if (given.roughness) result.roughness = roughness_of(*given.roughness, result.friction);
     // One entry may give the residual and a later one a smaller strength.
     result.residual = {
@@ -202,10 +196,8 @@ class JointLaws {
     return known != tangents_.end() ? known->second : correctly_rounded::tan_of_degrees(degrees);
   }
 
-  /// Stiffnesses that are not given: of a tie, and as much as the fracture energy needs. Such joints have springs in any
-  /// scene.
+  /// Stiffnesses that are not given: of a tie, and as much as the fracture energy needs.
   void set_springs_of_bond(std::size_t a, std::size_t b, const SceneJointLaw& given, JointLaw& law) const {
-    law.is_compliant = multipliers_;
     const auto stiffness = [&](double automatic, double strength, double energy) {
       const double least = energy > 0.0 ? least_bond_stiffness(strength, energy) : 0.0;
       return std::max(automatic, automatic_bond_stiffness * least);

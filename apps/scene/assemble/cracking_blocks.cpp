@@ -132,7 +132,7 @@ class CrackingCheck {
   std::set<int> bolted_;
 };
 
-CrackLaw law_of(const SceneCracking& crack, const BlockModel& block, bool augmented) {
+CrackLaw law_of(const SceneCracking& crack, const BlockModel& block) {
   const StiffnessSource source = stiffness_source(block);
   const double tie = automatic_tie_stiffness(source, source);
   const auto stiffness = [&](double strength, double energy) {
@@ -145,7 +145,7 @@ CrackLaw law_of(const SceneCracking& crack, const BlockModel& block, bool augmen
   joint.cohesion = crack.cohesion;
   joint.tensile_strength = crack.tensile_strength;
   joint.rigid = true;
-  joint.is_compliant = augmented;
+  joint.transmission = Transmission::springs;
   joint.residual = ResidualStrength{joint.friction, 0.0, 0.0};
   joint.fracture = crack.fracture_energy;
   return {crack.tensile_strength, crack.least_size, joint};
@@ -166,8 +166,7 @@ std::unique_ptr<CrackedBlocks> cracked_blocks(std::shared_ptr<const LoadedScene>
   for (const SceneCracking& crack : scene.crack) {
     most_blocks = std::max(most_blocks, crack.most_blocks);
     for (std::size_t k = 0; k < laws.size(); ++k)
-      if (means_block(scene, crack.blocks, k))
-        laws[k] = law_of(crack, run.blocks()[k], run.system().settings().augmented);
+      if (means_block(scene, crack.blocks, k)) laws[k] = law_of(crack, run.blocks()[k]);
   }
   Diagnostics ignored;  // the simulation has been built of the same scene
   const auto models = std::make_shared<const SceneModels>(*stage, run.system().settings(), 1.0, ignored);

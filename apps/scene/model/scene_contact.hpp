@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/scene/model/scene_region.hpp"
-#include "mechanics/contact/bond_damage.hpp"
+#include "mechanics/contact/laws/bond_damage.hpp"
 
 namespace ashlar {
 
@@ -53,6 +53,11 @@ struct SceneJointLaw {
   std::optional<SceneTie> tie;  ///< bonded up to a strength, which cohesion and tensile_strength hold too
 
   [[nodiscard]] bool gives_stiffness() const { return normal_stiffness || shear_stiffness; }
+  /// True if springs transmit the force of the joint in a scene with multipliers too: the law has a given stiffness, or is
+  /// one without multipliers. @param asked multipliers are asked for, in place of given stiffness
+  [[nodiscard]] bool keeps_springs(bool asked) const {
+    return tie || fracture_energy || compressive_strength || maximum_closure || (gives_stiffness() && !asked);
+  }
 };
 
 /// [contact]

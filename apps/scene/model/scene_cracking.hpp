@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/contact/bond_damage.hpp"
+#include "mechanics/contact/laws/bond_damage.hpp"
 
 namespace ashlar {
 

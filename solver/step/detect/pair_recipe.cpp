@@ -37,7 +37,7 @@ PairRecipe kept_recipe(const RunState& state, const PairKey& blocks, const KeptC
   law.rounding = kept.cache->law.rounding;
   PatchStart start;
   start.continues = true;
-  if (law.augmented) start.frozen = known.spent;
+  if (law.has_multipliers()) start.frozen = known.spent;
   return {blocks,
           law,
           {kept.points, kept.cache->found.cuts, kept.cache->found.turning, kept.cache->rows, kept.cache},

@@ -37,11 +37,8 @@ ContactBody body_at_start(const BlockSystem& system, const RunState& state, int 
   return {&system.blocks()[at(block)], &state.states[at(block)], placed};
 }
 
-/// The law of a pair as its points use it, less the rounding of coordinates.
 JointLaw law_of(const BlockSystem& system, const PairKey& blocks) {
-  JointLaw law = system.law(blocks[0], blocks[1]);
-  law.augmented = system.settings().augmented && !law.is_compliant;
-  return law;
+  return system.law(blocks[0], blocks[1]);
 }
 
 /// Contacts at the present state, without points. An empty result may be cached too.
@@ -274,8 +271,8 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
   const PairHistory& known = history_of(state.pairs, blocks);
   const SimulationSettings& settings = system.settings();
   const bool continues = use == PairUse::motion && state.has_begun();
-  const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented,
-                                            known.overlap, law.largest_closure};
+  const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface,
+                                            law.has_multipliers(), known.overlap, law.largest_closure};
   const std::vector<bool> references_on_a = reference_is_on_a(
       body_a, body_b, contacts.overlaps,
       [&covered, a = a, b = b](const RimPlace& rim) {
@@ -294,7 +291,7 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
   law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
   PatchStart start;
   if (use == PairUse::motion && !state.has_begun()) start.touch_within = law.rounding;
-  if (continues && law.augmented) start.frozen = known.spent;
+  if (continues && law.has_multipliers()) start.frozen = known.spent;
   start.freezes_failure = use == PairUse::statics && state.statics.freezes_failure;
   if (use == PairUse::statics && !state.statics.level_start.empty()) {
     start.moved_in_level = moved_in_level(system, state, blocks, points);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/contact/point_force.hpp"
+#include "mechanics/contact/laws/point_force.hpp"
 
 namespace ashlar {
 

@@ -3,7 +3,7 @@
 // Joints with tensile strength resist any tension until the forces are balanced. If the balanced tension exceeds the
 // strength, the most overstressed joints fail permanently and the iteration continues: there are no more rounds than
 // joints. Strength that yields (PointLaw::yields) needs none. Cohesion likewise acts across gaps until a balance shows
-// which points have opened. Bonds with fracture energy have a law without jumps (mechanics/contact/softened_point.hpp),
+// which points have opened. Bonds with fracture energy have a law without jumps (mechanics/contact/laws/softened_point.hpp),
 // and fail in it.
 #pragma once
 

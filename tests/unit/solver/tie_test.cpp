@@ -1,5 +1,5 @@
 // Tied blocks act as one body: in statics, in motion, turned, with orders that differ.
-#include "mechanics/contact/tie.hpp"
+#include "mechanics/contact/laws/tie.hpp"
 
 #include <gtest/gtest.h>
 

@@ -88,27 +88,26 @@ void warn_of_restitution(const Scene& scene, IdleKeys& keys) {
 
 /// Only springs have dashpots, and only in dynamics.
 void warn_of_joint_damping(const Scene& scene, IdleKeys& keys) {
-  const auto check = [&](const std::string& path, const SceneJointLaw& law, bool is_compliant) {
+  const bool asked = scene.contact.augmented.value_or(false);
+  const auto check = [&](const std::string& path, const SceneJointLaw& law, bool keeps_springs) {
     if (law.damping == 0.0) return;
     const std::string key = path + ".damping";
     if (is_static(scene.analysis))
       keys.warn(key, "a static analysis has no motion in time");
-    else if (scene.contact.augmented.value_or(false))
-      keys.warn(key,
-                "multipliers hold joints here, and only springs are damped: augmented = false has springs");
-    else if (has_multipliers(scene) && !is_compliant)
-      keys.warn(key,
-                "multipliers hold this joint, and only springs are damped: normal_stiffness gives it some");
+    else if (has_multipliers(scene) && !keeps_springs)
+      keys.warn(
+          key,
+          asked ? "multipliers hold joints here, and only springs are damped: augmented = false has springs"
+                : "multipliers hold this joint, and only springs are damped: normal_stiffness gives it some");
   };
-  const bool any = std::any_of(scene.joint.begin(), scene.joint.end(), [](const SceneJoint& joint) {
-    return joint.normal_stiffness.value_or(std::nullopt) || joint.shear_stiffness.value_or(std::nullopt);
-  });
-  check("contact", scene.contact.law, any || scene.contact.law.gives_stiffness());
+  bool any = scene.contact.law.keeps_springs(asked);
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     SceneJointLaw law = scene.contact.law;
     override_law(law, scene.joint[k]);
-    check(fmt::format("joint.{}", k), law, law.gives_stiffness());
+    any = any || law.keeps_springs(asked);
+    check(fmt::format("joint.{}", k), law, law.keeps_springs(asked));
   }
+  check("contact", scene.contact.law, any);
 }
 
 /// Warns of joints that tie two blocks by their names. Globs may also match pairs untied by a later joint.

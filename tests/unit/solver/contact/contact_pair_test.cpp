@@ -173,7 +173,7 @@ TEST(ContactPair, WhatCohesionHeldIsKeptOnBothSidesOfTheSurface) {
 
 JointLaw multiplier_law() {
   JointLaw law{2e9, 1e9, 0.1, 0.0, 0.0, true};
-  law.augmented = true;
+  law.transmission = Transmission::multipliers;
   return law;
 }
 

@@ -48,8 +48,7 @@ Simulation simulation_of(const Placed& placed) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-2, -2, -1}, {3, 3, 0}));
   blocks.emplace_back(block_of("cube", sunk_cube(placed), stone, placed.order));
-  JointLaw law{stiffness, 0.5 * stiffness, placed.friction, 0.0, 0.0, true};
-  law.augmented = placed.multipliers;
+  const JointLaw law{stiffness, 0.5 * stiffness, placed.friction, 0.0, 0.0, true};
   Simulation simulation(std::move(blocks), {{}, {Vector3(placed.speed, 0, 0), Vector3::Zero()}},
                         same_law(law), settings);
   if (placed.known > 0.0) simulation.start_overlapping({{{0, 1}, placed.known}});

@@ -81,7 +81,23 @@ TEST(StructMembers, EachNumberOfASnapshotIsStored) {
 
 /// A law of which no member has its default.
 JointLaw unusual_law() {
-  return {1.0, 2.0, 0.3, 4.0, 5.0, false, true, 6e-9, true, true, 0.2, 0.7, ResidualStrength{0.1, 3.0, 2.5}};
+  return {1.0,
+          2.0,
+          0.3,
+          4.0,
+          5.0,
+          false,
+          Transmission::springs,
+          6e-9,
+          true,
+          0.2,
+          0.7,
+          ResidualStrength{0.1, 3.0, 2.5},
+          {8.0, 9.0},
+          0.4,
+          1e6,
+          1e-3,
+          {11.0, 2e7, 0.5, 0.8, 3e-3}};
 }
 
 // Contacts last only as long as their law is the same.

@@ -47,6 +47,24 @@ TEST(BlockSystem, BlocksAreHeldByTheSupportsOfThoseTheyAreTiedTo) {
             (std::vector<bool>{true, true, true, false, true}));
 }
 
+TEST(BlockSystem, DecidesWhatTransmitsTheForceOfEachJoint) {
+  const auto decided = [](Transmission given, bool has_multipliers) {
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(box(0, 1));
+    blocks.emplace_back(box(1, 2));
+    JointLaw law;
+    law.transmission = given;
+    SimulationSettings settings;
+    settings.augmented = has_multipliers;
+    return BlockSystem(std::move(blocks), same_law(law), settings, {}).law(0, 1).transmission;
+  };
+  EXPECT_EQ(decided(Transmission::by_scene, true), Transmission::multipliers);
+  EXPECT_EQ(decided(Transmission::springs, true), Transmission::springs);
+  // A law that was decided in a scene with multipliers, as a system without them has it.
+  for (const Transmission given : {Transmission::by_scene, Transmission::springs, Transmission::multipliers})
+    EXPECT_EQ(decided(given, false), Transmission::springs);
+}
+
 TEST(BlockSystem, HoldsBlocksUntilTheyAreLetGo) {
   BlockSystem system = row({});
   system.hold({1, 3});

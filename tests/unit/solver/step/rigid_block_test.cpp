@@ -35,7 +35,6 @@ JointLaw joint(double friction, bool augmented) {
   law.normal_stiffness = 1e10;
   law.shear_stiffness = 1e10;
   law.friction = friction;
-  law.augmented = augmented;
   law.rigid = augmented;
   return law;
 }

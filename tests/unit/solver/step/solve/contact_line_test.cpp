@@ -24,7 +24,7 @@ TEST(ContactLine, WorkIsThatOfAllForcesAtEachShare) {
   JointLaw dilating{1e9, 5e8, 0.5, 1e3, 0.0, true};
   dilating.dilation = 0.2;
   JointLaw multipliers{1e9, 5e8, 0.5, 0.0, 0.0, true};
-  multipliers.augmented = true;
+  multipliers.transmission = Transmission::multipliers;
   for (const JointLaw& law : {JointLaw{1e9, 5e8, 0.5, 0.0, 0.0, true}, dilating, multipliers}) {
     SampleProblem sample = sample_of(law);
     IslandProblem& problem = sample.problem;

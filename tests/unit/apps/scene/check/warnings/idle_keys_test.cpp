@@ -77,6 +77,10 @@ TEST(IdleKeys, OnlySpringsInMotionAreDamped) {
       ElementsAre("s.toml:6:1: warning: damping has no effect: multipliers hold this joint, and only springs "
                   "are damped: normal_stiffness gives it some"));
   EXPECT_THAT(warnings(given, {"analysis.initial_state=static", "contact.normal_stiffness=1e9"}), IsEmpty());
+  // Laws without multipliers have springs too, also where multipliers are asked for.
+  EXPECT_THAT(warnings(given, {"analysis.initial_state=static", "contact.compressive_strength=1e7"}),
+              IsEmpty());
+  EXPECT_THAT(warnings(given, {"contact.augmented=true", "contact.compressive_strength=1e7"}), IsEmpty());
   const std::string of_joint = sample_with(7, "blocks = [\"A\", \"B\"]\ndamping = 0.1");
   EXPECT_THAT(
       warnings(of_joint, {"contact.augmented=true"}),

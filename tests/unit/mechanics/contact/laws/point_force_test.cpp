@@ -1,11 +1,11 @@
-#include "mechanics/contact/point_force.hpp"
+#include "mechanics/contact/laws/point_force.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
 
-#include "unit/mechanics/contact/sample_joint.hpp"
+#include "unit/mechanics/contact/laws/sample_joint.hpp"
 
 namespace ashlar::point_force_test {
 namespace {

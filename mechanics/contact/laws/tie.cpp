@@ -1,4 +1,4 @@
-#include "mechanics/contact/tie.hpp"
+#include "mechanics/contact/laws/tie.hpp"
 
 #include <vector>
 

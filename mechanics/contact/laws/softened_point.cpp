@@ -1,4 +1,4 @@
-#include "mechanics/contact/softened_point.hpp"
+#include "mechanics/contact/laws/softened_point.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "mechanics/contact/spring_energy.hpp"
+#include "mechanics/contact/laws/spring_energy.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "mechanics/contact/crushed_point.hpp"
+#include "mechanics/contact/laws/crushed_point.hpp"
 
 #include <gtest/gtest.h>
 

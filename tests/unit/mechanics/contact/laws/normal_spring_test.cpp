@@ -1,5 +1,5 @@
 // The curve of Bandis: closed forms, and energies against quadrature.
-#include "mechanics/contact/normal_spring.hpp"
+#include "mechanics/contact/laws/normal_spring.hpp"
 
 #include <gtest/gtest.h>
 

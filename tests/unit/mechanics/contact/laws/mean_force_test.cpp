@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 #include "support/check_derivatives.hpp"
-#include "unit/mechanics/contact/sample_joint.hpp"
+#include "unit/mechanics/contact/laws/sample_joint.hpp"
 
 namespace ashlar::mean_force_test {
 namespace {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "mechanics/contact/normal_spring.hpp"
+#include "mechanics/contact/laws/normal_spring.hpp"
 
 namespace ashlar {
 

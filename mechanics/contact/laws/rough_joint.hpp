@@ -14,7 +14,7 @@
 
 #include <limits>
 
-#include "mechanics/contact/shear_bound.hpp"
+#include "mechanics/contact/laws/shear_bound.hpp"
 
 namespace ashlar {
 

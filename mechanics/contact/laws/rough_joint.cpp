@@ -1,4 +1,4 @@
-#include "mechanics/contact/rough_joint.hpp"
+#include "mechanics/contact/laws/rough_joint.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,8 +8,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "mechanics/contact/joint_law.hpp"
-#include "mechanics/contact/sliding_point.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
+#include "mechanics/contact/laws/sliding_point.hpp"
 
 namespace ashlar {
 

@@ -1,4 +1,4 @@
-#include "mechanics/contact/normal_spring.hpp"
+#include "mechanics/contact/laws/normal_spring.hpp"
 
 #include <algorithm>
 
@@ -6,9 +6,6 @@
 
 namespace ashlar {
 namespace {
-
-/// Closure from which on the tangent replaces the curve, over the largest closure: the curve has no force beyond that.
-constexpr double end_of_curve = 0.99;
 
 /// -u - ln(1 - u) = u^2/2 + u^3/3 + ..., for 0 <= u < 1, without cancellation.
 double excess(double u) {

@@ -4,7 +4,7 @@
 // then, and P c is dissipated. Material between the blocks is crushed: they overlap by the closure.
 #pragma once
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 
 namespace ashlar {
 

@@ -1,4 +1,4 @@
-#include "mechanics/contact/sliding_point.hpp"
+#include "mechanics/contact/laws/sliding_point.hpp"
 
 #include <algorithm>
 

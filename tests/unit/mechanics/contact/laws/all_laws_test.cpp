@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 #include "support/check_derivatives.hpp"
 
 namespace ashlar::all_laws_test {

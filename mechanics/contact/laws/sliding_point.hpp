@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/contact/joint_law.hpp"
-#include "mechanics/contact/shear_bound.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
+#include "mechanics/contact/laws/shear_bound.hpp"
 
 namespace ashlar {
 

@@ -1,4 +1,4 @@
-#include "mechanics/contact/softened_point.hpp"
+#include "mechanics/contact/laws/softened_point.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "support/check_derivatives.hpp"
-#include "unit/mechanics/contact/sample_joint.hpp"
+#include "unit/mechanics/contact/laws/sample_joint.hpp"
 
 namespace ashlar::softened_point_test {
 namespace {

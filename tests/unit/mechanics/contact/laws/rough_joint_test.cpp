@@ -1,4 +1,4 @@
-#include "mechanics/contact/rough_joint.hpp"
+#include "mechanics/contact/laws/rough_joint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 #include "support/check_derivatives.hpp"
 
 namespace ashlar::rough_joint_test {

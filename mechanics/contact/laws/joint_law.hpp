@@ -54,9 +54,9 @@
 #include <limits>
 #include <optional>
 
-#include "mechanics/contact/bond_damage.hpp"
-#include "mechanics/contact/normal_spring.hpp"
-#include "mechanics/contact/rough_joint.hpp"
+#include "mechanics/contact/laws/bond_damage.hpp"
+#include "mechanics/contact/laws/normal_spring.hpp"
+#include "mechanics/contact/laws/rough_joint.hpp"
 
 namespace ashlar {
 
@@ -65,6 +65,13 @@ enum class ContactState {
   open,     ///< no force
   locked,   ///< normal and shear spring
   sliding,  ///< normal spring and friction force
+};
+
+/// What transmits the force of a joint.
+enum class Transmission {
+  by_scene,     ///< multipliers in a scene that has them (SimulationSettings::augmented), otherwise springs
+  springs,      ///< springs in any scene
+  multipliers,  ///< rigid contact: as BlockSystem::law() decides, which never leaves it to the scene
 };
 
 /// Strength of a joint after failure.
@@ -84,12 +91,11 @@ struct JointLaw {
   double cohesion = 0.0;          ///< Pa
   double tensile_strength = 0.0;  ///< Pa
   bool area_springs = true;
-  bool augmented = false;     ///< multipliers replace springs until penetration is within a tolerance
-  double rounding = 0.0;      ///< m, >= 0: rounding error of gaps and slips of the pair
-  bool rigid = false;         ///< true: the springs represent rigid contact, not a joint of given stiffness
-  bool is_compliant = false;  ///< true: a compliant joint with springs, also if other joints have multipliers
-  double dilation = 0.0;      ///< tan(psi), 0 to the smallest friction: more would generate energy
-  double damping = 0.0;       ///< >= 0, share of critical, of springs (ContactPair::damp)
+  Transmission transmission = Transmission::by_scene;
+  double rounding = 0.0;  ///< m, >= 0: rounding error of gaps and slips of the pair
+  bool rigid = false;     ///< true: the springs represent rigid contact, not a joint of given stiffness
+  double dilation = 0.0;  ///< tan(psi), 0 to the smallest friction: more would generate energy
+  double damping = 0.0;   ///< >= 0, share of critical, of springs (ContactPair::damp)
   /// Strength of failed or never bonded surfaces; each value at most that above. Empty: `friction` only
   std::optional<ResidualStrength> residual = std::nullopt;
   /// Of each strength that is not zero, or of none. With it: area springs, without dilation, damping and multipliers,
@@ -107,6 +113,7 @@ struct JointLaw {
   /// compressive strength
   Roughness roughness = {};
 
+  [[nodiscard]] bool has_multipliers() const { return transmission == Transmission::multipliers; }
   /// True if pressure has a plastic cap.
   [[nodiscard]] bool crushes() const {
     return compressive_strength < std::numeric_limits<double>::infinity();

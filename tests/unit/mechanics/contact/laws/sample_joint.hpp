@@ -1,7 +1,7 @@
 // A joint whose contact points are tested.
 #pragma once
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 
 namespace ashlar::test_support {
 

@@ -1,12 +1,12 @@
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "mechanics/contact/crushed_point.hpp"
-#include "mechanics/contact/point_force.hpp"
-#include "mechanics/contact/sliding_point.hpp"
-#include "mechanics/contact/softened_point.hpp"
+#include "mechanics/contact/laws/crushed_point.hpp"
+#include "mechanics/contact/laws/point_force.hpp"
+#include "mechanics/contact/laws/sliding_point.hpp"
+#include "mechanics/contact/laws/softened_point.hpp"
 
 namespace ashlar {
 

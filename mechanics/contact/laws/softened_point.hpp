@@ -11,7 +11,7 @@
 // column and one row: whichever raises D, opening or slip, D depends on one of them.
 #pragma once
 
-#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 
 namespace ashlar {
 

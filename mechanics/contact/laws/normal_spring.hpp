@@ -16,6 +16,9 @@ struct MeanCompression {
 };
 
 struct NormalSpring {
+  /// Closure from which on the tangent replaces the curve, over the largest closure.
+  static constexpr double end_of_curve = 0.99;
+
   double stiffness = 0.0;                                            ///< N/m: k
   double largest_closure = std::numeric_limits<double>::infinity();  ///< m, > 0: v; infinite: linear
 
