@@ -127,6 +127,19 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
       share);
 }
 
+/// Warns of joints closed beyond the curve of their closure, where the tangent replaces it.
+void warn_of_closure(const Simulation& simulation, std::ostream& err) {
+  const MostClosed& most = simulation.most_closed();
+  if (!(most.share > NormalSpring::end_of_curve)) return;
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  err << fmt::format(
+      "ashlar: warning: the joint of blocks {} and {} was closed by {:.4g} of its maximum_closure at t = "
+      "{:.6g} s: "
+      "beyond {} of it a joint is linear, softer than its curve; check normal_stiffness and "
+      "maximum_closure\n",
+      name(most.blocks[0]), name(most.blocks[1]), most.share, most.time, NormalSpring::end_of_curve);
+}
+
 /// Warns of blocks that turn so far in a step that dda takes spin from them.
 void warn_of_turns(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.05;
@@ -279,6 +292,7 @@ void tell_results(const Run& run, const std::filesystem::path& folder, bool quie
   warn_of_depth(simulation, err);
   warn_of_friction(simulation, err);
   warn_of_hops(simulation, err);
+  warn_of_closure(simulation, err);
   warn_of_short_steps(simulation, err);
   warn_of_impacts(simulation, err);
   warn_of_unlike_restitution(simulation, err);

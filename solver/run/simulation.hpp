@@ -211,6 +211,7 @@ class Simulation {
   [[nodiscard]] const FrictionTally& sliding_friction() const { return extremes().sliding_friction; }
   /// Sum over all steps. 0 if no joint dilates.
   [[nodiscard]] const DilatingSlip& dilating_slip() const { return extremes().dilating_slip; }
+  [[nodiscard]] const MostClosed& most_closed() const { return extremes().most_closed; }
   /// Impacts of joints with restitution.
   [[nodiscard]] const ImpactTally& impacts() const { return extremes().impacts; }
   /// Contacts of two blocks that the next step will detect, and those that it will remove, each with the reason.

@@ -53,6 +53,7 @@ void add(const ContactExtremes& one, ContactExtremes& sum) {
   if (one.deepest.depth > sum.deepest.depth) sum.deepest = one.deepest;
   add_all(one.sliding_friction, sum.sliding_friction);
   add_all(one.dilating_slip, sum.dilating_slip);
+  if (one.most_closed.share > sum.most_closed.share) sum.most_closed = one.most_closed;
   sum.impacts = one.impacts;
   sum.turn.limited = std::max(sum.turn.limited, one.turn.limited);  // all ranks count all
   if (one.turn.angle > sum.turn.angle)
@@ -60,15 +61,16 @@ void add(const ContactExtremes& one, ContactExtremes& sum) {
 }
 
 RunTotals totals_here(const Simulation& simulation, const ShownContacts& shown) {
-  return {simulation.ledger(),
-          simulation.report(),
-          {simulation.largest_penetration(), simulation.deepest(), simulation.sliding_friction(),
-           simulation.dilating_slip(), simulation.impacts(), simulation.largest_turn()},
-          simulation.momentum(),
-          simulation.angular_momentum(),
-          simulation.counts(),
-          simulation.unknowns(),
-          shown};
+  return {
+      simulation.ledger(),
+      simulation.report(),
+      {simulation.largest_penetration(), simulation.deepest(), simulation.sliding_friction(),
+       simulation.dilating_slip(), simulation.most_closed(), simulation.impacts(), simulation.largest_turn()},
+      simulation.momentum(),
+      simulation.angular_momentum(),
+      simulation.counts(),
+      simulation.unknowns(),
+      shown};
 }
 
 }  // namespace

@@ -98,6 +98,13 @@ struct DeepestPoint {
   Vector3 place = Vector3::Zero();  ///< m
 };
 
+/// Joint that stiffens as it closes (NormalSpring), where it was closed the most.
+struct MostClosed {
+  BlockPair blocks = {-1, -1};
+  double share = 0.0;  ///< of its largest closure; 0: none has been closed
+  double time = 0.0;   ///< s
+};
+
 /// Friction at points that slid on multipliers, compared with Coulomb's law for their normal forces.
 struct FrictionTally {
   double due = 0.0;    ///< N s, tan(phi) times normal impulses, and cohesion
@@ -155,6 +162,7 @@ struct ContactExtremes {
   /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time
   FrictionTally sliding_friction;
   DilatingSlip dilating_slip;
+  MostClosed most_closed;
   ImpactTally impacts;
   LargestTurn turn;  ///< of steps in time
 };

@@ -48,6 +48,7 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
                                    .deepest = {},
                                    .sliding_friction = {},
                                    .dilating_slip = {},
+                                   .most_closed = {},
                                    .impacts = {},
                                    .turn = {}};
   return status;

@@ -85,6 +85,8 @@ constexpr Quantity of_run[] = {
     {"support.states.*", "1"},
     {"sliding_friction.*", "N s"},
     {"dilating_slip.*", "m^3"},
+    {"most_closed.of_maximum", "1"},
+    {"most_closed.time", "s"},
     {"impacts.count", "1"},
     {"impacts.inaccurate", "1"},
     {"impacts.unlike_restitution", "1"},

@@ -180,6 +180,12 @@ void add_contact_tallies(nlohmann::ordered_json& summary, const Simulation& simu
     summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
   if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
     summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
+  if (const MostClosed& most = simulation.most_closed(); most.share > 0.0)
+    summary["most_closed"] = {{"of_maximum", most.share},
+                              {"blocks",
+                               {simulation.blocks()[static_cast<std::size_t>(most.blocks[0])].name(),
+                                simulation.blocks()[static_cast<std::size_t>(most.blocks[1])].name()}},
+                              {"time", most.time}};
   if (const ImpactTally& impacts = simulation.impacts(); impacts.count > 0)
     summary["impacts"] = {{"count", impacts.count},
                           {"inaccurate", impacts.inaccurate},

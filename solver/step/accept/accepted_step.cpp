@@ -69,6 +69,19 @@ double deepest_of(const std::vector<double>& gaps) {
   return deepest;
 }
 
+/// Largest closure of a pair's points at the end of a step over that of their curve (NormalSpring); 0: none is closed.
+double closed_share(const ContactPair& pair, const PairResponse& response, const std::vector<PointLaw>& laws,
+                    const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) {
+  if (laws.empty() || !laws.front().normal_spring().stiffens()) return 0.0;
+  const Eigen::Matrix3Xd places = pair.places(ya, yb);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const double closure = response.points[k].dilation - places(0, static_cast<Eigen::Index>(k));
+    largest = std::max(largest, closure / laws[k].largest_closure);
+  }
+  return largest;
+}
+
 /// One pair of a step that was accepted.
 struct AcceptedPair {
   const ContactPair& pair;
@@ -237,6 +250,9 @@ class AcceptedContacts {
       tally_friction(acted, laws, scheme_.step, state_.extremes.sliding_friction);
     if (owned && pair.dilates() && !scheme_.is_static())
       tally_slip(pair, response, ya, yb, state_.extremes.dilating_slip);
+    if (const double share = owned ? closed_share(pair, response, laws, ya, yb) : 0.0;
+        share > state_.extremes.most_closed.share)
+      state_.extremes.most_closed = {{pair.a(), pair.b()}, share, state_.time() + scheme_.step};
     history.work += work + stopped.work;
     state_.records.push_back(
         {pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps), history.work});
