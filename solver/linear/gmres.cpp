@@ -10,8 +10,20 @@
 
 namespace ashlar {
 
+namespace {
+
+/// True if residuals that fall on at their mean rate do not reach the tolerance in all allowed iterations.
+/// @param residual over the right side, after the iterations used
+bool is_slow(double residual, int used, double tolerance, int most) {
+  constexpr int first = 3;  // residuals of the first two do not show a rate yet
+  return used >= first && residual > 0.0 &&
+         correctly_rounded::log(residual) * most > correctly_rounded::log(tolerance) * used;
+}
+
+}  // namespace
+
 KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& times,
-                     const Eigen::VectorXd& right_side, double tolerance, int most,
+                     const Eigen::VectorXd& right_side, double tolerance, int most, KrylovEnd end,
                      const InnerProducts& products) {
   const auto products_of = [&products](const Eigen::Ref<const Eigen::MatrixXd>& columns,
                                        const Eigen::VectorXd& x) -> Eigen::VectorXd {
@@ -52,6 +64,9 @@ KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
     rotations.push_back(rotation);
     ++used;
     solution.converged = std::abs(reduced[used]) <= tolerance * size;
+    if (end == KrylovEnd::if_slow && !solution.converged &&
+        is_slow(std::abs(reduced[used]) / size, used, tolerance, most))
+      break;
     // The Krylov space is exhausted: it contains the solution.
     if (!(length > 1e-14 * whole)) break;
     space.col(used) = next / length;

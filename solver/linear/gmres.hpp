@@ -11,10 +11,16 @@ namespace ashlar {
 using InnerProducts =
     std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::MatrixXd>&, const Eigen::VectorXd&)>;
 
+/// When GMRES ends without a solution.
+enum class KrylovEnd {
+  after_all,  ///< after all allowed iterations
+  if_slow,  ///< also from the third on, where the mean rate of the residuals would not reach the tolerance in all allowed
+};
+
 /// Outcome of a GMRES iteration.
 struct KrylovSolution {
   Eigen::VectorXd x;
-  bool converged = false;  ///< false: x is the best after all allowed iterations
+  bool converged = false;  ///< false: x is the best of those that were made
   int iterations = 0;
 };
 
@@ -25,6 +31,6 @@ struct KrylovSolution {
 /// vector after the other, and takes all products of a pass at once
 [[nodiscard]] KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& times,
                                    const Eigen::VectorXd& right_side, double tolerance, int most,
-                                   const InnerProducts& products = {});
+                                   KrylovEnd end = KrylovEnd::after_all, const InnerProducts& products = {});
 
 }  // namespace ashlar

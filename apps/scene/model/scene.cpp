@@ -7,35 +7,37 @@
 namespace ashlar {
 
 void override_law(SceneJointLaw& law, const SceneJoint& joint) {
-  // A stiffness that is given anew has the curve given with it, or none.
-  if (joint.normal_stiffness) {
-    law.normal_stiffness = *joint.normal_stiffness;
-    law.maximum_closure.reset();
-  }
-  law.shear_stiffness = joint.shear_stiffness.value_or(law.shear_stiffness);
-  law.friction_angle = joint.friction_angle.value_or(law.friction_angle);
-  law.cohesion = joint.cohesion.value_or(law.cohesion);
-  law.tensile_strength = joint.tensile_strength.value_or(law.tensile_strength);
-  const auto replace = [](std::optional<double>& value, const std::optional<double>& given) {
-    if (given) value = given;
+  // A member that is added to the law does not compile until it is named, and given, here.
+  auto& [normal_stiffness, shear_stiffness, maximum_closure, friction_angle, cohesion, tensile_strength,
+         compressive_strength, friction_angle_residual, cohesion_residual, tensile_strength_residual,
+         dilation_angle, damping, restitution, fracture_energy, roughness, tied, tie] = law;
+  const auto replace = [](auto& value, const auto& given) {
+    if (given) value = *given;
   };
-  replace(law.maximum_closure, joint.maximum_closure);
-  replace(law.compressive_strength, joint.compressive_strength);
-  replace(law.friction_angle_residual, joint.friction_angle_residual);
-  replace(law.cohesion_residual, joint.cohesion_residual);
-  replace(law.tensile_strength_residual, joint.tensile_strength_residual);
-  law.dilation_angle = joint.dilation_angle.value_or(law.dilation_angle);
-  law.damping = joint.damping.value_or(law.damping);
-  if (joint.restitution) law.restitution = joint.restitution;
-  if (joint.roughness) law.roughness = joint.roughness;
-  if (joint.fracture_energy) law.fracture_energy = joint.fracture_energy;
+  // A stiffness that is given anew has the curve given with it, or none.
+  if (joint.normal_stiffness) maximum_closure.reset();
+  replace(normal_stiffness, joint.normal_stiffness);
+  replace(shear_stiffness, joint.shear_stiffness);
+  replace(maximum_closure, joint.maximum_closure);
+  replace(friction_angle, joint.friction_angle);
+  replace(cohesion, joint.cohesion);
+  replace(tensile_strength, joint.tensile_strength);
+  replace(compressive_strength, joint.compressive_strength);
+  replace(friction_angle_residual, joint.friction_angle_residual);
+  replace(cohesion_residual, joint.cohesion_residual);
+  replace(tensile_strength_residual, joint.tensile_strength_residual);
+  replace(dilation_angle, joint.dilation_angle);
+  replace(damping, joint.damping);
+  replace(restitution, joint.restitution);
+  replace(fracture_energy, joint.fracture_energy);
+  replace(roughness, joint.roughness);
   if (!joint.tied && !joint.tie) return;
-  law.tied = joint.tied.value_or(false);
-  law.tie = joint.tie;
-  if (!law.tie) return;
-  law.cohesion = law.tie->shear;
-  law.tensile_strength = law.tie->tension;
-  law.cohesion_residual = law.tensile_strength_residual = std::nullopt;
+  tied = joint.tied.value_or(false);
+  tie = joint.tie;
+  if (!tie) return;
+  cohesion = tie->shear;
+  tensile_strength = tie->tension;
+  cohesion_residual = tensile_strength_residual = std::nullopt;
 }
 
 SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a, const std::string& block_b) {

@@ -215,7 +215,7 @@ std::optional<Eigen::VectorXd> IslandTangent::solve_with_old(const Eigen::Vector
   };
   const KrylovSolution found =
       gmres(preconditioned, solver_.factor->solve(right_side, false), settings.krylov_tolerance,
-            settings.old_factor_iterations, inner_products());
+            settings.old_factor_iterations, KrylovEnd::if_slow, inner_products());
   if (!found.converged) return std::nullopt;
   const bool has_bodies = problem_.sums().shared() || right_side.size() > 0;
   if (has_bodies && !(problem_.dot(right_side, found.x) > 0.0)) return std::nullopt;
@@ -250,7 +250,7 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   };
   const IterationSettings& settings = problem_.settings().iteration;
   return gmres(with_couplings, solver_.factor->solve(right_side), settings.krylov_tolerance,
-               settings.krylov_iterations, inner_products())
+               settings.krylov_iterations, KrylovEnd::after_all, inner_products())
       .x;
 }
 

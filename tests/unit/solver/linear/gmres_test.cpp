@@ -30,6 +30,26 @@ TEST(Gmres, NeedsAsManyIterationsAsTheMatrixIsAwayFromTheIdentity) {
   EXPECT_LT((solution.x - expected).norm(), 1e-11 * expected.norm());
 }
 
+TEST(Gmres, GivesUpWhereResidualsWouldNotReachTheTolerance) {
+  // A cyclic shift of n numbers: from the first unit vector no residual is smaller than the right side before iteration n.
+  constexpr int n = 12;
+  const auto shift = [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXd next(n);
+    next << x.tail(n - 1), x[0];
+    return next;
+  };
+  const Eigen::VectorXd first = Eigen::VectorXd::Unit(n, 0);
+  EXPECT_EQ(gmres(shift, first, 1e-4, 10, KrylovEnd::if_slow).iterations, 3);
+  EXPECT_EQ(gmres(shift, first, 1e-4, 10).iterations, 10);
+  EXPECT_TRUE(gmres(shift, first, 1e-4, n).converged);
+  // Eigenvalues from 1/2 to 1: after k iterations at most 2 (3 - sqrt(8))^k is left, 1e-2 after three, 1e-4 after six.
+  const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(n, 0.5, 1.0);
+  const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return values.cwiseProduct(x); };
+  const KrylovSolution fast = gmres(times, Eigen::VectorXd::Ones(n), 1e-4, 10, KrylovEnd::if_slow);
+  EXPECT_TRUE(fast.converged);
+  EXPECT_GT(fast.iterations, 3);
+}
+
 TEST(Gmres, TakesAllProductsOfAPassAtOnce) {
   // Hilbert's matrix of size 8: its Krylov vectors are nearly dependent. Two parts of vectors, summed.
   const int n = 8;
@@ -45,7 +65,7 @@ TEST(Gmres, TakesAllProductsOfAPassAtOnce) {
   };
   const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return a * x; };
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1.0, -2.0);
-  const KrylovSolution solution = gmres(times, b, 1e-10, n, products);
+  const KrylovSolution solution = gmres(times, b, 1e-10, n, KrylovEnd::after_all, products);
   EXPECT_TRUE(solution.converged);
   EXPECT_EQ(calls, 1 + 2 * solution.iterations);
   EXPECT_LT((times(solution.x) - b).norm(), 1e-9 * b.norm());

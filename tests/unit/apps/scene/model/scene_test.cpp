@@ -36,6 +36,25 @@ TEST(Scene, OtherPairsKeepWhatMatchesThem) {
   EXPECT_FALSE(law.tied);
 }
 
+TEST(Scene, AJointGivesAnotherValueOrNone) {
+  SceneJointLaw law;
+  law.normal_stiffness = 1e9;
+  law.restitution.emplace(0.3);
+  SceneJoint joint;
+  joint.compressive_strength = 1e7;
+  override_law(law, joint);
+  EXPECT_EQ(law.normal_stiffness, 1e9);
+  EXPECT_EQ(law.restitution, std::optional<double>(0.3));
+  EXPECT_EQ(law.compressive_strength, 1e7);
+  // "auto" and "springs" are values too.
+  joint.normal_stiffness.emplace(std::nullopt);
+  joint.restitution.emplace(std::nullopt);
+  override_law(law, joint);
+  EXPECT_FALSE(law.normal_stiffness.has_value());
+  ASSERT_TRUE(law.restitution.has_value());
+  EXPECT_FALSE(law.restitution->has_value());
+}
+
 TEST(Scene, JointsOfCutsDoNotChooseMultipliers) {
   Scene scene = scene_with_joints();
   scene.analysis.type = SceneAnalysis::Type::statics;
