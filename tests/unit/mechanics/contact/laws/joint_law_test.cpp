@@ -124,7 +124,8 @@ TEST(JointLaw, RoundingDoesNotChooseTheState) {
   }
   EXPECT_EQ(point_response(point, -1e-5, {1e-5 + 1.1e-14, 0}).state, ContactState::sliding);
   // Cohesion acts in touch, and as long as the gap may be rounding.
-  const PointLaw intact = point_law({2e9, 1e9, 0.5, 3e4, 0.0, true, Transmission::by_scene, 1e-14}, 0.1, true);
+  const PointLaw intact =
+      point_law({2e9, 1e9, 0.5, 3e4, 0.0, true, Transmission::by_scene, 1e-14}, 0.1, true);
   for (const double gap : {-0.9e-14, 0.9e-14})
     EXPECT_NEAR(point_response(intact, gap, {1e-6, 0}).force[1], -100.0, 1e-9);
   // A point in contact slides below its limit, with a known gain of friction under pressure.
@@ -164,7 +165,8 @@ TEST(JointLaw, ABridgedPointKeepsItsCohesionAcrossAGap) {
 }
 
 TEST(JointLaw, WhatHasNoFrictionIsNeverLocked) {
-  const PointLaw smooth = point_law({2e9, 1e9, 0.0, 0.0, 0.0, true, Transmission::by_scene, 1e-14}, 0.1, true);
+  const PointLaw smooth =
+      point_law({2e9, 1e9, 0.0, 0.0, 0.0, true, Transmission::by_scene, 1e-14}, 0.1, true);
   for (const double slip : {0.9e-14, 1e-5}) {
     const PointResponse response = point_response(smooth, -1e-5, {slip, 0});
     EXPECT_EQ(response.state, ContactState::sliding);
