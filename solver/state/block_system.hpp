@@ -72,6 +72,7 @@ class BlockSystem {
   /// By block: false for fixed and absent blocks, and for blocks held at present: loose ones in statics, sleeping
   /// ones in dynamics.
   [[nodiscard]] const std::vector<bool>& moving() const { return moving_; }
+  /// The joint law of a pair (a < b), with springs or multipliers, never left to the scene.
   [[nodiscard]] JointLaw law(int a, int b) const;
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
   [[nodiscard]] const std::vector<TiedBlocks>& ties() const { return ties_; }
