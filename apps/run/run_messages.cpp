@@ -21,6 +21,11 @@
 namespace ashlar {
 namespace {
 
+/// Names of blocks by their numbers.
+auto names_in(const Simulation& simulation) {
+  return [&simulation](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+}
+
 /// Prints the largest displacement and stresses, and failed joints: one line.
 void tell_answers(const Simulation& simulation, const LargestValues& largest, std::ostream& err) {
   std::vector<std::string> parts;
@@ -45,7 +50,7 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.01;
   const DeepestPoint& deepest = simulation.deepest();
   if (!(deepest.share > ordinary)) return;
-  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  const auto name = names_in(simulation);
   err << fmt::format(
       "ashlar: warning: block {} was {:.3g} m deep in block {} at t = {:.6g} s, {:.2g} of the smaller "
       "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
@@ -69,7 +74,7 @@ void warn_of_chords(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 2.0 * AutomaticRatios{}.chord_tolerance;
   const std::optional<ChordError> error = largest_chord_error(simulation);
   if (!error || !(error->share > ordinary)) return;
-  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  const auto name = names_in(simulation);
   err << fmt::format(
       "ashlar: warning: where block {} presses block {}, its curved face is {:.3g} m from the flat "
       "sub-faces in contact, {:.2g} of the smaller block's size; up to {} is ordinary: a smaller "
@@ -131,11 +136,10 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
 void warn_of_closure(const Simulation& simulation, std::ostream& err) {
   const MostClosed& most = simulation.most_closed();
   if (!(most.share > NormalSpring::end_of_curve)) return;
-  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  const auto name = names_in(simulation);
   err << fmt::format(
       "ashlar: warning: the joint of blocks {} and {} was closed by {:.4g} of its maximum_closure at t = "
-      "{:.6g} s: "
-      "beyond {} of it a joint is linear, softer than its curve; check normal_stiffness and "
+      "{:.6g} s: beyond {} of it a joint is linear, softer than its curve; check normal_stiffness and "
       "maximum_closure\n",
       name(most.blocks[0]), name(most.blocks[1]), most.share, most.time, NormalSpring::end_of_curve);
 }

@@ -93,25 +93,26 @@ nlohmann::ordered_json json_of(const std::vector<DisplacedBlock>& displaced, con
   return list;
 }
 
-nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& simulation) {
+nlohmann::ordered_json names_of_pair(const BlockPair& blocks, const Simulation& simulation) {
   const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  return {name(blocks[0]), name(blocks[1])};
+}
+
+nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& simulation) {
   const Vector3& place = deepest.place;
   return {{"value", deepest.depth},
           {"of_smaller_block", deepest.share},
-          {"blocks", nlohmann::ordered_json{name(deepest.blocks[0]), name(deepest.blocks[1])}},
+          {"blocks", names_of_pair(deepest.blocks, simulation)},
           {"time", deepest.time},
           {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
 }
 
 /// Pairs of blocks with an initial overlap beyond rounding error.
 nlohmann::ordered_json known_overlaps_of(const BuiltSimulation& built) {
-  const auto name = [&](int block) {
-    return built.simulation.blocks()[static_cast<std::size_t>(block)].name();
-  };
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const KnownOverlap& known : built.overlaps) {
     if (known.rounding) continue;
-    list.push_back({{"blocks", nlohmann::ordered_json{name(known.blocks[0]), name(known.blocks[1])}},
+    list.push_back({{"blocks", names_of_pair(known.blocks, built.simulation)},
                     {"depth", known.overlap.depth},
                     {"exact", known.overlap.exact}});
   }
@@ -181,11 +182,8 @@ void add_contact_tallies(nlohmann::ordered_json& summary, const Simulation& simu
   if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
     summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
   if (const MostClosed& most = simulation.most_closed(); most.share > 0.0)
-    summary["most_closed"] = {{"of_maximum", most.share},
-                              {"blocks",
-                               {simulation.blocks()[static_cast<std::size_t>(most.blocks[0])].name(),
-                                simulation.blocks()[static_cast<std::size_t>(most.blocks[1])].name()}},
-                              {"time", most.time}};
+    summary["most_closed"] = {
+        {"of_maximum", most.share}, {"blocks", names_of_pair(most.blocks, simulation)}, {"time", most.time}};
   if (const ImpactTally& impacts = simulation.impacts(); impacts.count > 0)
     summary["impacts"] = {{"count", impacts.count},
                           {"inaccurate", impacts.inaccurate},

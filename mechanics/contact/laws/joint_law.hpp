@@ -67,7 +67,7 @@ enum class ContactState {
   sliding,  ///< normal spring and friction force
 };
 
-/// What transmits the force of a joint.
+/// Springs or multipliers, which transmit the force of a joint.
 enum class Transmission {
   by_scene,     ///< multipliers in a scene that has them (SimulationSettings::augmented), otherwise springs
   springs,      ///< springs in any scene
