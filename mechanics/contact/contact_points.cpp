@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "geometry/index.hpp"
@@ -54,26 +53,15 @@ int degree_of(const Search& search, const CellOverlap& cells) {
   return order <= affine && !search.settings.multipliers ? affine : std::max(order, least_degree);
 }
 
-/// The degree of a rule for a joint that stiffens as it closes; 0: any. Between the closures c1 and c2 of an overlap, c/(1 - c/v)
-/// has its pole at p = (2 v - c1 - c2)/(c2 - c1) of the half-width from the middle, so that errors of Gauss's rules fall by
-/// p + sqrt(p^2 - 1) with each degree (notes/joint_closure.md). @param gaps of the points of a rule. @param degree of that rule
-int degree_for_closure(const std::vector<double>& gaps, int degree, double largest) {
-  constexpr double accuracy = 1e-3;
-  constexpr int finest = 16;
-  if (gaps.empty() || !(largest < std::numeric_limits<double>::infinity())) return 0;
+/// The degree of a rule that springs need; 0: any. @param gaps of the points of a rule. @param degree of that rule
+int degree_for_spring(const std::vector<double>& gaps, int degree, const NormalSpring& spring) {
+  if (gaps.empty() || !spring.stiffens()) return 0;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-  const double middle = -0.5 * (*least + *most) / largest;
+  const double middle = -0.5 * (*least + *most);
   // The points of other rules end before the corners.
   const double reach = degree == affine ? 1.0 : 1.0 + 1.0 / degree;
-  const double half = 0.5 * reach * (*most - *least) / largest;
-  const double low = std::clamp(middle - half, 0.0, NormalSpring::end_of_curve);
-  const double high = std::clamp(middle + half, 0.0, NormalSpring::end_of_curve);
-  if (!(high > low)) return 0;
-  const double pole = (2.0 - low - high) / (high - low);
-  const double fall = pole + std::sqrt(pole * pole - 1.0);
-  int needed = 0;
-  for (double error = 1.0 / fall; error > accuracy && needed < finest; error /= fall) ++needed;
-  return needed == 0 ? 0 : needed + 1;  // times the lever of a moment
+  const double half = 0.5 * reach * (*most - *least);
+  return spring.needed_degree(middle - half, middle + half);
 }
 
 /// True if a face is neither completely closed nor completely open: pressure may end inside, or begin anywhere.
@@ -129,8 +117,7 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
     points.clear();
     add_points(whole);
   }
-  if (const int needed = degree_for_closure(gaps_of(points), degree, settings.largest_closure);
-      needed > degree) {
+  if (const int needed = degree_for_spring(gaps_of(points), degree, settings.spring); needed > degree) {
     degree = needed;
     whole = rule_of(outline, degree);
     points.clear();
@@ -250,9 +237,9 @@ PolygonRule rule_of(const std::vector<Eigen::Vector2d>& outline, int degree) {
 }
 
 bool rule_lasts(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance,
-                double largest_closure) {
+                const NormalSpring& spring) {
   constexpr int to_stay = 2;  // a rule lasts while the joint closes a little further
-  if (degree_for_closure(gaps, overlap.degree, largest_closure) > overlap.degree + to_stay) return false;
+  if (degree_for_spring(gaps, overlap.degree, spring) > overlap.degree + to_stay) return false;
   if (overlap.degree == affine && may_open_in_part(gaps, tolerance)) return false;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   const bool may_end = !gaps.empty() && -*least > tolerance && *most > tolerance;

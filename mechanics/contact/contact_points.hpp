@@ -12,14 +12,13 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "geometry/contacts/contact_search.hpp"
 #include "geometry/contacts/overlap_vertices.hpp"
 #include "mechanics/contact/contact_kinematics.hpp"
-#include "mechanics/contact/laws/joint_law.hpp"
+#include "mechanics/contact/laws/normal_spring.hpp"
 #include "mechanics/contact/pressure_end.hpp"
 
 namespace ashlar {
@@ -39,8 +38,8 @@ struct ContactPointSettings {
   /// Multipliers leave almost no gap under pressure, so that gaps do not show where pressure ends.
   bool multipliers = false;
   double known_overlap = 0.0;  ///< m, >= 0: points with this initial overlap start without force
-  /// JointLaw::largest_closure, m: where a joint is closed unevenly, rules are as fine as its curve needs
-  double largest_closure = std::numeric_limits<double>::infinity();
+  NormalSpring spring =
+      {};  ///< per area: where a joint is closed unevenly, rules are as fine as its curve needs
 };
 
 /// A face of a, then one of b.
@@ -64,9 +63,9 @@ struct RuledOverlap {
 /// True if the end of pressure is unchanged since the points were made, or pressure still does not end inside, and the rule is
 /// fine enough.
 /// @param gaps of the rule on the whole overlap, m. @param tolerance m, smaller gaps count as 0
-/// @param largest_closure as ContactPointSettings
+/// @param spring as ContactPointSettings
 [[nodiscard]] bool rule_lasts(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance,
-                              double largest_closure);
+                              const NormalSpring& spring);
 
 /// Contact points of a pair of blocks.
 struct ContactPoints {

@@ -39,7 +39,7 @@ bool rules_last(const ContactCache& cache, const ContactBody& a, const ContactBo
         gaps.push_back(point.gap + point.normal.dot(displacement(a, point.material_a, motion.changes[0]) -
                                                     displacement(b, point.material_b, motion.changes[1])));
     }
-    if (!rule_lasts(overlap, gaps, cache.law.rounding, cache.law.largest_closure)) return false;
+    if (!rule_lasts(overlap, gaps, cache.law.rounding, cache.law.normal_spring())) return false;
   }
   return true;
 }

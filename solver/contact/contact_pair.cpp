@@ -71,7 +71,6 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vec
       start_(3, static_cast<Eigen::Index>(points_.size())),
       rows_(std::move(rows)) {
   kind_.restitution = law.restitution;
-  kind_.roughness = law.roughness;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact, memory_[k].damage));
     if (law.has_multipliers()) {
@@ -314,10 +313,8 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     const bool sheared = point.state == ContactState::sliding && laws_[k].weakens_by_sliding();
     const bool softens = laws_[k].bond.softens();
     memory.level_damage = memory_[k].level_damage;
-    if (softens) memory.damage = laws[k].bond.softens() ? point.damage : 1.0;
-    if (kind_.roughness.wears())
-      memory.damage = wear_after(kind_.roughness,
-                                 kind_.counts_slip ? memory_[k].level_damage : memory_[k].damage, point.slid);
+    memory.damage = damage_after(laws_[k], laws[k], point,
+                                 kind_.counts_slip ? memory_[k].level_damage : memory_[k].damage);
     const bool fails = softens ? memory.damage >= 1.0 : torn || sheared;
     memory.intact = memory_[k].intact && (kind_.freezes_failure || !fails);
     if (laws[k].augmented && point.state != ContactState::open) {

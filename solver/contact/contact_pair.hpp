@@ -228,7 +228,6 @@ class ContactPair {
     bool freezes_failure = false;
     bool continues = false;
     std::optional<double> restitution = std::nullopt;
-    Roughness roughness = {};
   };
 
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,

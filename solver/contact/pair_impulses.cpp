@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "mechanics/contact/laws/point_force.hpp"
 #include "solver/contact/contact_pair.hpp"
 
 namespace ashlar {
@@ -10,11 +9,6 @@ namespace {
 
 bool is_held(const PointLaw& law, const PointResponse& point) {
   return point.state != ContactState::open && (point.force[0] > 0.0 || law.tension > 0.0);
-}
-
-/// tan(phi), of a rough joint under this normal force.
-double friction_of(const PointLaw& law, double normal) {
-  return law.roughness.given() && normal > 0.0 ? friction_under(law, normal).value / normal : law.friction;
 }
 
 }  // namespace
@@ -80,12 +74,12 @@ void ContactPair::remember_impulses(const PairResponse& response, const std::vec
                                     std::vector<PointMemory>& memory) const {
   for (std::size_t k = 0; k < impulses.size(); ++k) {
     const Eigen::Vector3d& force = response.points[k].force;
-    if (response.points[k].state == ContactState::open || friction_of(laws[k], force[0]) == 0.0) continue;
+    if (response.points[k].state == ContactState::open || laws[k].friction_at(force[0]) == 0.0) continue;
     Eigen::Vector2d shear = force.tail<2>();
     // Impulses normal to the slope of a point that dilates include some friction.
     if (response.points[k].state == ContactState::sliding && laws[k].dilation.tangent > 0.0)
       shear += impulses[k].tail<2>();
-    const double rubbed = std::max(0.0, shear.norm() - laws[k].cohesion) / friction_of(laws[k], force[0]);
+    const double rubbed = std::max(0.0, shear.norm() - laws[k].cohesion) / laws[k].friction_at(force[0]);
     const double due = force[0] + laws[k].impulse_force + impulses[k][0];
     const double most = response.points[k].state == ContactState::sliding
                             ? std::numeric_limits<double>::infinity()

@@ -103,7 +103,7 @@ void stretch(const PointLaw& law, const ContactPoint& point, const Vector3& forc
              SpringEnergy& energy) {
   const double normal = limited(law, point.normal.dot(force));
   Vector3 shear = force - point.normal.dot(force) * point.normal;
-  const double resisted = law.cohesion + law.friction * std::max(normal, 0.0);
+  const double resisted = law.shear_strength(normal);
   if (const double length = shear.norm(); length > resisted) shear *= resisted / length;
   memory.intact = true;
   memory.in_level = true;

@@ -11,9 +11,9 @@
 #include "mechanics/block/rigid_body.hpp"
 #include "mechanics/block/rigid_motions.hpp"
 #include "solver/limit/crushing_joints.hpp"
+#include "solver/limit/pressure_friction.hpp"
 #include "solver/limit/rigid_bolts.hpp"
 #include "solver/limit/rigid_points.hpp"
-#include "solver/limit/rough_friction.hpp"
 
 namespace ashlar {
 namespace {
@@ -237,11 +237,11 @@ RigidModel plain_model(const BlockSystem& system, const RunState& state, double 
 RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
                        const std::vector<bool>& multiplied, RigidPointKind kind) {
   RigidModel model = plain_model(system, state, end_time, multiplied, kind);
-  if (!has_rough_joints(model)) return model;
+  if (!has_pressure_friction(model)) return model;
   if (kind == RigidPointKind::limit)
-    set_rough_friction(model, LimitFactors{});
+    set_pressure_friction(model, LimitFactors{});
   else
-    set_rough_friction(model, rough_friction(rigid_model(system, state, end_time, multiplied)));
+    set_pressure_friction(model, pressure_friction(rigid_model(system, state, end_time, multiplied)));
   return model;
 }
 
@@ -362,16 +362,8 @@ void keep_residual_strength(RigidModel& model) {
     const std::size_t begin = points.size();
     for (std::size_t k = pair.begin; k < pair.end; ++k) {
       RigidPoint& point = model.points[k];
-      JointLaw& law = point.law;
-      if (!point.bar) {
-        const PointLaw failed = point_law(law, 1.0, false);
-        law.friction = failed.friction;
-        law.cohesion = failed.cohesion;
-        law.tensile_strength = failed.tension;
-        law.residual = ResidualStrength{law.friction, law.cohesion, law.tensile_strength};
-        law.fracture = {};
-        if (law.roughness.wears()) law.roughness = {};
-      }
+      if (!point.bar) point.law = failed_law(point.law);
+      const JointLaw& law = point.law;
       // Parts of overlaps transmit cohesion and tension alone.
       const bool part = !point.bar && point.area > 0.0 && point.spring.normal == 0.0;
       if (!part || law.cohesion > 0.0 || law.tensile_strength > 0.0) points.push_back(std::move(point));

@@ -201,6 +201,9 @@ class Simulation {
   /// Largest change of the residual in one step and largest energy so far, J.
   [[nodiscard]] double largest_step_residual() const { return state_.ledger.largest_step_residual(); }
   [[nodiscard]] double largest_energy() const { return state_.ledger.largest_energy(); }
+  [[nodiscard]] const ContactExtremes& extremes() const {
+    return told_ ? told_->totals.extremes : state_.extremes;
+  }
   /// Largest penetration of contact points, m.
   [[nodiscard]] double largest_penetration() const { return extremes().penetration; }
   /// Largest depth of any corner or edge, independent of contacts (depth_audit.hpp).
@@ -239,9 +242,6 @@ class Simulation {
              const std::vector<InitialMotion>& motions, LawOfPair law, const SimulationSettings& settings,
              const std::vector<TieRequest>& ties, std::vector<bool> absent);
   [[nodiscard]] RunContext context();
-  [[nodiscard]] const ContactExtremes& extremes() const {
-    return told_ ? told_->totals.extremes : state_.extremes;
-  }
   /// @throws std::invalid_argument if several ranks share the run. @param what they cannot do, to begin a sentence
   void refuse_ranks(const char* what) const;
   /// @throws std::logic_error if contacts have been detected. @param call name of the function of the start

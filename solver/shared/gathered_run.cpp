@@ -61,16 +61,8 @@ void add(const ContactExtremes& one, ContactExtremes& sum) {
 }
 
 RunTotals totals_here(const Simulation& simulation, const ShownContacts& shown) {
-  return {
-      simulation.ledger(),
-      simulation.report(),
-      {simulation.largest_penetration(), simulation.deepest(), simulation.sliding_friction(),
-       simulation.dilating_slip(), simulation.most_closed(), simulation.impacts(), simulation.largest_turn()},
-      simulation.momentum(),
-      simulation.angular_momentum(),
-      simulation.counts(),
-      simulation.unknowns(),
-      shown};
+  return {simulation.ledger(),           simulation.report(), simulation.extremes(), simulation.momentum(),
+          simulation.angular_momentum(), simulation.counts(), simulation.unknowns(), shown};
 }
 
 }  // namespace

@@ -44,13 +44,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   state.remembers_statics = true;
   state.ledger.clear(in_springs);
   state.ledger.start(system, state.states);
-  state.extremes = ContactExtremes{.penetration = state.report.penetration,
-                                   .deepest = {},
-                                   .sliding_friction = {},
-                                   .dilating_slip = {},
-                                   .most_closed = {},
-                                   .impacts = {},
-                                   .turn = {}};
+  state.extremes = {};
+  state.extremes.penetration = state.report.penetration;
   return status;
 }
 

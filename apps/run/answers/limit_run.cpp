@@ -14,7 +14,7 @@
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "geometry/exact/axis_rotation.hpp"
 #include "mechanics/block/rigid_body.hpp"
-#include "solver/limit/rough_friction.hpp"
+#include "solver/limit/pressure_friction.hpp"
 
 namespace ashlar {
 namespace {
@@ -212,7 +212,8 @@ LimitFindings limits_of(const Scene& scene, RigidModel model, const std::vector<
   return findings;
 }
 
-/// Searches with the friction of rough joints at the limit of the search before, and change of it at which they end.
+/// Searches with the friction that joints have under the forces at the limit of the search before, and change of it at which they
+/// end.
 constexpr int most_searches = 8;
 constexpr double same_friction = 1e-3;
 
@@ -227,10 +228,10 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, const Simulation
   for (int n = 1;; ++n) {
     LimitFindings findings = limits_of(scene, model, reduced, simulation, threads, may_continue);
     const std::optional<double>& stands = findings.answer.released.lower;
-    if (!has_rough_joints(model) || findings.answer.interrupted || !stands) return findings;
+    if (!has_pressure_friction(model) || findings.answer.interrupted || !stands) return findings;
     const LimitFactors limit =
         is_safety(scene.analysis) ? LimitFactors{*stands, 1.0} : LimitFactors{1.0, *stands};
-    if (set_rough_friction(model, limit, reduced) <= same_friction) return findings;
+    if (set_pressure_friction(model, limit, reduced) <= same_friction) return findings;
     if (n < most_searches) continue;
     // The friction is not yet that of the limit.
     findings.answer.released.resolved = findings.answer.associated.resolved = false;

@@ -21,6 +21,10 @@ double PointLaw::shear_strength(double normal) const {
   return friction_under(*this, std::max(normal, 0.0)).value + cohesion;
 }
 
+double PointLaw::friction_at(double normal) const {
+  return roughness.given() && normal > 0.0 ? friction_under(*this, normal).value / normal : friction;
+}
+
 PointLaw point_law(const JointLaw& law, double area, bool intact, double damage) {
   const double scale = law.area_springs ? area : 1.0;
   const ResidualStrength residual = law.residual.value_or(ResidualStrength{law.friction, 0.0, 0.0});
@@ -35,6 +39,30 @@ PointLaw point_law(const JointLaw& law, double area, bool intact, double damage)
   if (point.bond.softens()) point.set_damage(damage);
   if (!intact) point.fail();
   return point;
+}
+
+JointLaw failed_law(JointLaw law) {
+  const PointLaw failed = point_law(law, 1.0, false);
+  law.friction = failed.friction;
+  law.cohesion = failed.cohesion;
+  law.tensile_strength = failed.tension;
+  law.residual = ResidualStrength{law.friction, law.cohesion, law.tensile_strength};
+  law.fracture = {};
+  if (law.roughness.wears()) law.roughness = {};
+  return law;
+}
+
+void set_mean_friction(JointLaw& law, double friction) {
+  law.friction = friction;
+  if (law.residual && !law.roughness.wears()) law.residual->friction = friction;
+}
+
+double friction_of_part(const JointLaw& law, double area, double normal) {
+  return friction_under(point_law(law, area, true), normal).value;
+}
+
+double least_friction(const JointLaw& law, double normal) {
+  return law.roughness.share * (law.roughness.worn * normal);
 }
 
 namespace {
@@ -97,6 +125,12 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
         (law.dashpots.shear * law.dashpots.start_slip - response.force.tail<2>()) / shear_resistance(law),
         response);
   return response;
+}
+
+double damage_after(const PointLaw& start, const PointLaw& end, const PointResponse& response,
+                    double before) {
+  if (start.bond.softens()) return end.bond.softens() ? response.damage : 1.0;
+  return start.roughness.wears() ? wear_after(start.roughness, before, response.slid) : 0.0;
 }
 
 MeanResponse end_response(const PointLaw& law, const PointResponse& end, double gap) {

@@ -118,6 +118,9 @@ struct JointLaw {
   [[nodiscard]] bool crushes() const {
     return compressive_strength < std::numeric_limits<double>::infinity();
   }
+  /// True if friction is not proportional to pressure.
+  [[nodiscard]] bool friction_varies() const { return roughness.given(); }
+  [[nodiscard]] NormalSpring normal_spring() const { return {normal_stiffness, largest_closure}; }
   friend bool operator==(const JointLaw&, const JointLaw&) = default;
 };
 
@@ -186,11 +189,24 @@ struct PointLaw {
   void set_damage(double damage);
   /// Resistance of the strength to sliding, N. @param normal N
   [[nodiscard]] double shear_strength(double normal) const;
+  /// tan(phi) under a normal force, N.
+  [[nodiscard]] double friction_at(double normal) const;
 };
 
 /// @param area tributary area of the point, m^2. @param intact false: with residual strength
 /// @param damage of a joint with fracture energy, or wear of a rough one, at the start of the step, 0 to 1
 [[nodiscard]] PointLaw point_law(const JointLaw& law, double area, bool intact, double damage = 0.0);
+
+/// The law of joints that have failed, or have worn.
+[[nodiscard]] JointLaw failed_law(JointLaw law);
+
+// Friction that varies (JointLaw::friction_varies()) in limit analysis, whose cones have one coefficient.
+/// Sets the coefficient under the present forces. The residual strength of a joint that does not wear has it too.
+void set_mean_friction(JointLaw& law, double friction);
+/// Force of friction of a part of a joint, N. @param area m^2, > 0. @param normal N, > 0
+[[nodiscard]] double friction_of_part(const JointLaw& law, double area, double normal);
+/// The least that it may be for a joint, N: where its forces act on an edge. @param normal N
+[[nodiscard]] double least_friction(const JointLaw& law, double normal);
 
 /// Unsymmetric part of -d force / d (g, s1, s2), missing from a symmetric tangent: force by'. With dilation
 ///   -d force / d (g, s) = k (1, -f e) (1, -tan(psi) e)' + rotation of the force,   e = s/|s|, f: derivative of the
@@ -226,6 +242,11 @@ struct PointResponse {
 
 /// @param gap m; @param slip trial slip (2), m, as if locked
 [[nodiscard]] PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip);
+
+/// Damage of a point at the end of a step, 0 to 1: of a bond with fracture energy, or wear of a rough joint.
+/// @param start,end the law at both times: at the end strength may have been lost. @param before wear before the step
+[[nodiscard]] double damage_after(const PointLaw& start, const PointLaw& end, const PointResponse& response,
+                                  double before);
 
 /// The normal force at a gap without slip, N; may be negative beyond the tensile strength.
 [[nodiscard]] double trial_normal(const PointLaw& law, double gap);

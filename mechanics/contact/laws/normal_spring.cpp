@@ -1,6 +1,7 @@
 #include "mechanics/contact/laws/normal_spring.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/exact/rounded_functions.hpp"
 
@@ -28,6 +29,21 @@ double NormalSpring::force_of_curve(double closure) const {
 double NormalSpring::slope_of_curve(double closure) const {
   const double left = 1.0 - std::min(closure / largest_closure, end_of_curve);
   return stiffness / (left * left);
+}
+
+/// Between the shares x1 and x2 of the largest closure, x/(1 - x) has its pole at p = (2 - x1 - x2)/(x2 - x1) of the half-width
+/// from the middle, so that errors of Gauss's rules fall by p + sqrt(p^2 - 1) with each degree.
+int NormalSpring::needed_degree(double from, double to) const {
+  constexpr double accuracy = 1e-3;
+  constexpr int finest = 16;
+  const double low = std::clamp(closed_share(from), 0.0, end_of_curve);
+  const double high = std::clamp(closed_share(to), 0.0, end_of_curve);
+  if (!(high > low)) return 0;
+  const double pole = (2.0 - low - high) / (high - low);
+  const double fall = pole + std::sqrt(pole * pole - 1.0);
+  int needed = 0;
+  for (double error = 1.0 / fall; error > accuracy && needed < finest; error /= fall) ++needed;
+  return needed == 0 ? 0 : needed + 1;  // times the lever of a moment
 }
 
 double NormalSpring::closure(double force) const {

@@ -36,6 +36,11 @@ struct NormalSpring {
   [[nodiscard]] double energy(double closure) const {
     return stiffens() && closure > 0.0 ? work(0.0, closure) : 0.5 * stiffness * closure * closure;
   }
+  /// Share of the largest closure. 0 for a linear spring. @param closure m
+  [[nodiscard]] double closed_share(double closure) const { return closure / largest_closure; }
+  /// Degree of Gauss's rules whose forces are right to 1e-3 where the closure is linear between two; 0: any
+  /// (../../notes/joint_closure.md). @param from,to m, any signs, from <= to
+  [[nodiscard]] int needed_degree(double from, double to) const;
   /// Inverse of force(). @param force N, any sign. @return m
   [[nodiscard]] double closure(double force) const;
   /// Mean of the force over a linear change of closure, without tension: its work is the change of energy.

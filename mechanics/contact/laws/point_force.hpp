@@ -114,6 +114,11 @@ template <class Law>
   return normal_resistance(law);
 }
 
+/// The largest that it is at any gap, N/m.
+[[nodiscard]] inline double steepest_normal_slope(const PointLaw& law) {
+  return normal_slope(law, -law.largest_closure);
+}
+
 /// The normal force of a point that has dilated. @param normal normal_at(law, gap). @param tangent tan(psi)
 /// @param slip m
 template <class Law>

@@ -25,10 +25,6 @@ double peak_slip_of(double jrc, double length) {
   return length / lengths_of_slip * std::pow(jrc / length, slip_exponent);
 }
 
-double wear_after(const Roughness& roughness, double wear, double slip) {
-  return roughness.wears() ? std::min(1.0, wear + slip / (last_slip * roughness.peak_slip)) : wear;
-}
-
 double roughness_left(double wear) {
   const double slip = last_slip * wear;
   for (std::size_t k = 0; k < worn_roughness.size(); ++k) {
@@ -43,8 +39,18 @@ double roughness_left(double wear) {
 }
 
 PointRoughness point_roughness(const Roughness& roughness, double area, double wear) {
-  if (!roughness.given() || !(area > 0.0)) return {};
-  return {roughness.jrc * roughness_left(wear), roughness.jcs * area, roughness.worn, roughness.share};
+  PointRoughness rough;
+  if (roughness.wears()) rough.last_slip = last_slip * roughness.peak_slip;
+  if (!roughness.given() || !(area > 0.0)) return rough;
+  rough.jrc = roughness.jrc * roughness_left(wear);
+  rough.strength = roughness.jcs * area;
+  rough.worn = roughness.worn;
+  rough.share = roughness.share;
+  return rough;
+}
+
+double wear_after(const PointRoughness& rough, double wear, double slip) {
+  return std::min(1.0, wear + slip / rough.last_slip);
 }
 
 ShearBound rough_bound(const PointRoughness& rough, double normal) {

@@ -34,9 +34,6 @@ struct Roughness {
 /// d of a wall. @param length m, > 0. @return m
 [[nodiscard]] double peak_slip_of(double jrc, double length);
 
-/// Wear, 0 to 1, after more slip. @param slip m, >= 0
-[[nodiscard]] double wear_after(const Roughness& roughness, double wear, double slip);
-
 /// Share of JRC that is left. @param wear slip over 100 d, 0 to 1
 [[nodiscard]] double roughness_left(double wear);
 
@@ -46,11 +43,17 @@ struct PointRoughness {
   double strength = 0.0;  ///< JCS A, N
   double worn = 0.0;
   double share = 1.0;
+  /// m: nothing is left of JRC after it; infinite: it does not wear
+  double last_slip = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool given() const { return jrc > 0.0; }
+  [[nodiscard]] bool wears() const { return last_slip < std::numeric_limits<double>::infinity(); }
 };
 /// @param area m^2; 0: a corner or an edge, whose pressure has no bound and whose friction is that of a worn joint
 [[nodiscard]] PointRoughness point_roughness(const Roughness& roughness, double area, double wear);
+
+/// Wear, 0 to 1, after more slip. @param rough of a joint that wears. @param slip m, >= 0
+[[nodiscard]] double wear_after(const PointRoughness& rough, double wear, double slip);
 
 /// Bound of the shear force, and its derivative by the normal force. @param normal N, >= 0. @param rough given
 [[nodiscard]] ShearBound rough_bound(const PointRoughness& rough, double normal);

@@ -77,7 +77,7 @@ double closed_share(const ContactPair& pair, const PairResponse& response, const
   double largest = 0.0;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const double closure = response.points[k].dilation - places(0, static_cast<Eigen::Index>(k));
-    largest = std::max(largest, closure / laws[k].largest_closure);
+    largest = std::max(largest, laws[k].normal_spring().closed_share(closure));
   }
   return largest;
 }

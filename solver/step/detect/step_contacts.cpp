@@ -272,7 +272,7 @@ std::optional<PairRecipe> StepContacts::recipe_of(const BlockSystem& system, con
   const SimulationSettings& settings = system.settings();
   const bool continues = use == PairUse::motion && state.has_begun();
   const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface,
-                                            law.has_multipliers(), known.overlap, law.largest_closure};
+                                            law.has_multipliers(), known.overlap, law.normal_spring()};
   const std::vector<bool> references_on_a = reference_is_on_a(
       body_a, body_b, contacts.overlaps,
       [&covered, a = a, b = b](const RimPlace& rim) {

@@ -12,8 +12,7 @@ void ContactTable::set(const std::vector<std::vector<PointLaw>>& laws, bool mean
     Pair& pair = pairs_.emplace_back(Pair{laws_.size(), points, 0.0});
     points += of_pair.size();
     for (const PointLaw& law : of_pair)
-      pair.stiffness =
-          std::max({pair.stiffness, normal_slope(law, -law.largest_closure), shear_resistance(law)});
+      pair.stiffness = std::max({pair.stiffness, steepest_normal_slope(law), shear_resistance(law)});
     if (!mean && std::all_of(of_pair.begin(), of_pair.end(), is_frequent))
       for (const PointLaw& law : of_pair) laws_.emplace_back(law);
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "mechanics/basis/quadrature.hpp"
+
 namespace ashlar::normal_spring_test {
 namespace {
 
@@ -67,6 +69,37 @@ TEST(NormalSpring, EnergyIsTheIntegralOfTheForce) {
       }
     EXPECT_NEAR(curved.energy(to), sum, (x > 0.9 ? 1e-6 : 1e-11) * sum) << x;
   }
+}
+
+TEST(NormalSpring, RulesOfTheNeededDegreeHaveForceAndMoment) {
+  EXPECT_EQ(NormalSpring{stiffness}.needed_degree(0.0, 1.0), 0);
+  EXPECT_EQ(curved.needed_degree(-2.0 * largest, -0.1 * largest), 0);
+  EXPECT_EQ(curved.needed_degree(0.5 * largest, 0.5 * largest), 0);
+  int last = 1;
+  for (const double to : {0.2, 0.4, 0.6, 0.8, 0.9}) {
+    const double from = 0.1 * largest;
+    const double reach = to * largest - from;
+    const int degree = curved.needed_degree(from, to * largest);
+    EXPECT_GE(degree, last);
+    last = degree;
+    const SegmentRule rule = gauss_legendre(degree / 2 + 1), fine = gauss_legendre(60);
+    const auto moment_of = [&](const SegmentRule& of, double lever) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < of.points.size(); ++k)
+        sum += of.weights[k] * std::pow(2.0 * of.points[k] - 1.0, lever) *
+               curved.force(from + of.points[k] * reach);
+      return sum;
+    };
+    const double force = moment_of(fine, 0.0);
+    for (const double lever : {0.0, 1.0})
+      EXPECT_NEAR(moment_of(rule, lever), moment_of(fine, lever), 2e-3 * force) << to;
+  }
+  EXPECT_LE(curved.needed_degree(0.0, 5.0 * largest), 17);
+}
+
+TEST(NormalSpring, ClosureIsToldAsAShareOfTheLargest) {
+  EXPECT_DOUBLE_EQ(curved.closed_share(1.5e-4), 0.5);
+  EXPECT_EQ(NormalSpring{stiffness}.closed_share(1.5e-4), 0.0);
 }
 
 TEST(NormalSpring, TheMeanForceDoesTheWorkOfTheEnergy) {

@@ -74,12 +74,17 @@ TEST(RoughJoint, RoughnessWearsWithSlip) {
                                                        {std::sqrt(8.0), 0.775}}};
   for (const auto& [slip, left] : table) EXPECT_NEAR(roughness_left(slip / 100.0), left, 1e-12) << slip;
   Roughness roughness = rough_law().roughness;
-  EXPECT_EQ(wear_after(roughness, 0.25, 1.0), 0.25);
+  EXPECT_FALSE(point_roughness(roughness, area, 0.25).wears());
   roughness.peak_slip = 2e-3;
-  EXPECT_NEAR(wear_after(roughness, 0.25, 0.01), 0.3, 1e-15);
-  EXPECT_EQ(wear_after(roughness, 0.25, 1.0), 1.0);
-  // A worn joint has Coulomb's friction.
-  EXPECT_FALSE(point_roughness(roughness, area, 1.0).given());
+  const PointRoughness rough = point_roughness(roughness, area, 0.25);
+  EXPECT_NEAR(wear_after(rough, 0.25, 0.01), 0.3, 1e-15);
+  EXPECT_EQ(wear_after(rough, 0.25, 1.0), 1.0);
+  // A worn joint has Coulomb's friction, and remembers its wear, also at points without area.
+  for (const PointRoughness& worn :
+       {point_roughness(roughness, area, 1.0), point_roughness(roughness, 0.0, 0.5)}) {
+    EXPECT_FALSE(worn.given());
+    EXPECT_EQ(wear_after(worn, 0.5, 0.0), 0.5);
+  }
 }
 
 TEST(RoughJoint, SlidingForceIsTheStrengthAndItsSlipIsCounted) {
@@ -97,6 +102,43 @@ TEST(RoughJoint, SlidingForceIsTheStrengthAndItsSlipIsCounted) {
   EXPECT_NEAR(step.end.slid, 3e-3 - 2.0 * force / 1e9, 1e-15);
   // Dissipated: the work of friction less the energy of the spring.
   EXPECT_NEAR(force * 3e-3 - step.end.shear_energy, force * step.end.slid, 1e-9);
+}
+
+TEST(RoughJoint, DamageAfterAStepIsItsWear) {
+  JointLaw law = rough_law();
+  PointResponse response{};
+  response.slid = 0.01;
+  EXPECT_EQ(damage_after(point_law(law, area, true), point_law(law, area, true), response, 0.25), 0.0);
+  law.roughness.peak_slip = 2e-3;
+  const PointLaw point = point_law(law, area, true, 0.25);
+  EXPECT_NEAR(damage_after(point, point, response, 0.25), 0.3, 1e-15);
+}
+
+TEST(RoughJoint, ItsFrictionVariesWithPressure) {
+  JointLaw law = rough_law();
+  EXPECT_TRUE(law.friction_varies());
+  EXPECT_NEAR(point_law(law, area, true).friction_at(5e5 * area), strength_at(5e5) / 5e5, 1e-12);
+  EXPECT_EQ(point_law(law, area, true).friction_at(0.0), law.friction);
+  EXPECT_NEAR(friction_of_part(law, area, 5e5 * area), strength_at(5e5) * area, 1e-6);
+  law.roughness.share = 0.5;
+  EXPECT_NEAR(least_friction(law, 3.0), 1.5 * std::tan(30.0 * degree), 1e-15);
+}
+
+TEST(RoughJoint, AMeanCoefficientIsThatOfResidualStrengthIfNothingWears) {
+  JointLaw law = rough_law();
+  law.residual = ResidualStrength{law.friction, 0.0, 0.0};
+  set_mean_friction(law, 0.9);
+  EXPECT_EQ(law.friction, 0.9);
+  EXPECT_EQ(law.residual->friction, 0.9);
+  EXPECT_TRUE(failed_law(law).roughness.given());
+  law = rough_law();
+  law.residual = ResidualStrength{law.friction, 0.0, 0.0};
+  law.roughness.peak_slip = 2e-3;
+  set_mean_friction(law, 0.9);
+  EXPECT_EQ(law.residual->friction, std::tan(30.0 * degree));
+  const JointLaw worn = failed_law(law);
+  EXPECT_FALSE(worn.friction_varies());
+  EXPECT_EQ(worn.friction, std::tan(30.0 * degree));
 }
 
 TEST(RoughJoint, TangentsAreDerivatives) {

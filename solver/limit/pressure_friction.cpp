@@ -1,4 +1,4 @@
-#include "solver/limit/rough_friction.hpp"
+#include "solver/limit/pressure_friction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +19,8 @@ constexpr int divisions = 3;
 constexpr int most_pressure_iterations = 100;
 constexpr double same_resultant = 1e-8, least_step_share = 1e-6;
 
-bool is_rough(const RigidPoint& point) {
-  return !point.bar && point.law.roughness.given();
-}
-
-void set_friction(RigidPoint& point, double friction) {
-  point.law.friction = friction;
-  // The residual strength of a joint that does not wear is its strength.
-  if (point.law.residual && !point.law.roughness.wears()) point.law.residual->friction = friction;
+bool varies(const RigidPoint& point) {
+  return !point.bar && point.law.friction_varies();
 }
 
 /// A part of a joint: its place along the tangents of the joint, from a point of it.
@@ -41,7 +35,7 @@ struct FacesInContact {
   Eigen::Matrix<double, 2, 3> tangents;
   double normal = 0.0;                               ///< N
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< N m, of it along both tangents
-  Roughness roughness;
+  JointLaw law;
 
   [[nodiscard]] Eigen::Vector2d place_of(const Vector3& at) const { return tangents * (at - origin); }
 };
@@ -65,18 +59,18 @@ void add_parts(FacesInContact& faces, const std::array<Eigen::Vector2d, 3>& corn
     add_parts(faces, part, times - 1);
 }
 
-/// Rough joints with the forces of an answer.
+/// Joints whose friction varies, with the forces of an answer.
 std::map<FaceKey, FacesInContact> loaded_faces(const RigidModel& model,
                                                const std::vector<Eigen::Vector3d>& force) {
   std::map<FaceKey, FacesInContact> joints;
   for (const RigidPoint& area : model.areas) {
-    if (!is_rough(area)) continue;
+    if (!varies(area)) continue;
     const auto [joint, is_new] = joints.try_emplace(faces_of(area));
     FacesInContact& faces = joint->second;
     if (is_new) {
       faces.origin = area.place;
       faces.tangents = area.frame.bottomRows<2>();
-      faces.roughness = area.law.roughness;
+      faces.law = area.law;
     }
     const auto& corner = area.part->corners;
     add_parts(faces, {faces.place_of(corner[0]), faces.place_of(corner[1]), faces.place_of(corner[2])},
@@ -85,7 +79,7 @@ std::map<FaceKey, FacesInContact> loaded_faces(const RigidModel& model,
   for (std::size_t k = 0; k < model.points.size(); ++k) {
     const double normal = force[k][0] * model.units.force();
     const auto joint = joints.find(faces_of(model.points[k]));
-    if (!is_rough(model.points[k]) || joint == joints.end() || !(normal > 0.0)) continue;
+    if (!varies(model.points[k]) || joint == joints.end() || !(normal > 0.0)) continue;
     joint->second.normal += normal;
     joint->second.moment += normal * joint->second.place_of(model.points[k].place);
   }
@@ -139,14 +133,13 @@ std::vector<double> linear_pressure(const FacesInContact& faces) {
 
 /// Force of friction that a joint resists, N.
 double resisted(const FacesInContact& faces) {
-  const double worn = faces.roughness.worn * faces.normal;
   const std::vector<double> pressure = linear_pressure(faces);
-  if (pressure.empty()) return faces.roughness.share * worn;
+  if (pressure.empty()) return least_friction(faces.law, faces.normal);
   double sum = 0.0;
   for (std::size_t k = 0; k < pressure.size(); ++k) {
     if (!(pressure[k] > 0.0)) continue;
     const double area = faces.parts[k].area;
-    sum += rough_bound(point_roughness(faces.roughness, area, 0.0), pressure[k] * area).value;
+    sum += friction_of_part(faces.law, area, pressure[k] * area);
   }
   return sum;
 }
@@ -178,39 +171,40 @@ std::vector<Eigen::Vector3d> forces_of(const RigidModel& model, const LimitFacto
 
 }  // namespace
 
-bool has_rough_joints(const RigidModel& model) {
-  return std::any_of(model.points.begin(), model.points.end(), is_rough);
+bool has_pressure_friction(const RigidModel& model) {
+  return std::any_of(model.points.begin(), model.points.end(), varies);
 }
 
-double set_rough_friction(RigidModel& model, const LimitFactors& factors, const std::vector<bool>& reduced) {
-  const PairFriction before = rough_friction(model);
+double set_pressure_friction(RigidModel& model, const LimitFactors& factors,
+                             const std::vector<bool>& reduced) {
+  const PairFriction before = pressure_friction(model);
   for (int pass = 0; pass < most_passes; ++pass) {
-    const PairFriction last = rough_friction(model);
+    const PairFriction last = pressure_friction(model);
     const PairFriction friction = friction_under(model, forces_of(model, factors, reduced));
-    set_rough_friction(model, friction);
+    set_pressure_friction(model, friction);
     double change = 0.0;
     for (const auto& [pair, value] : friction)
       change = std::max(change, std::abs(value / last.at(pair) - 1.0));
     if (change < converged) break;
   }
   double change = 0.0;
-  for (const auto& [pair, value] : rough_friction(model))
+  for (const auto& [pair, value] : pressure_friction(model))
     change = std::max(change, std::abs(value / before.at(pair) - 1.0));
   return change;
 }
 
-PairFriction rough_friction(const RigidModel& model) {
+PairFriction pressure_friction(const RigidModel& model) {
   PairFriction friction;
   for (const RigidPoint& point : model.points)
-    if (is_rough(point)) friction[key_of(point.blocks)] = point.law.friction;
+    if (varies(point)) friction[key_of(point.blocks)] = point.law.friction;
   return friction;
 }
 
-void set_rough_friction(RigidModel& model, const PairFriction& friction) {
+void set_pressure_friction(RigidModel& model, const PairFriction& friction) {
   for (RigidPoint& point : model.points) {
-    if (!is_rough(point)) continue;
+    if (!varies(point)) continue;
     const auto found = friction.find(key_of(point.blocks));
-    if (found != friction.end()) set_friction(point, found->second);
+    if (found != friction.end()) set_mean_friction(point.law, found->second);
   }
 }
 
