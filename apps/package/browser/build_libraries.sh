@@ -35,12 +35,30 @@ host=(--host=none CC="$cc $link" CXX="$cxx $link -lc++-except -lc++abi-except" A
 build_compilers=()
 read -ra compile <<<"$cc"
 cmake_options=(-DASHLAR_BROWSER_LIBRARIES="$root" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+vectors=(-msimd128 -fno-vectorize -fno-slp-vectorize -DEIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16)
 gmp_options=(--disable-assembly)
 qd_flags='-O2 -ffp-contract=off'
 metis_edit=''
 cholmod_flags=(-Ddpotrf_=dpotrf_without_result)
 cholmod_sources=("$here/lapack.c")
 source "$here/../libraries.sh"
+
+# Eigen takes the vectors of WebAssembly for those of SSE2, so that its sums have the order, and the bits, that they have on
+# processors of PCs. Its choice of an old GCC, for which it has instructions in assembler, is clang's other name. clang 14 moves
+# the load of a number that fills a vector behind a store to the same place, unless it does not see where the number is from.
+build_eigen_with_vectors() {
+  local eigen=$root/include/eigen3/Eigen/src/Core
+  rm -rf "$root/include/eigen3" # the link to that of Linux
+  cp -rT /usr/include/eigen3 "$root/include/eigen3"
+  sed -i -e 's/#if (defined __SSE2__) &&/#if (defined __wasm_simd128__) \&\&/' \
+    -e 's/#include <mmintrin.h>/#define __SSE__ 1\n#define __SSE2__ 1/' \
+    -e 's/#include <xmmintrin.h>/&\n#undef __SSE__\n#undef __SSE2__/' "$eigen/util/ConfigureVectorization.h"
+  sed -i -e 's/#if EIGEN_COMP_GNUC && EIGEN_COMP_GNUC < 63/#if 0/' \
+    -e 's/{ return \(_mm_set1_pd\|_mm_set_ps1\|_mm_set1_epi32\)(from); }/{ auto value = from; asm("" : "+r"(value)); return \1(value); }/' \
+    "$eigen/arch/SSE/PacketMath.h"
+  grep -qF '__wasm_simd128__' "$eigen/util/ConfigureVectorization.h" && grep -qF '"+r"(value)' "$eigen/arch/SSE/PacketMath.h" ||
+    { echo 'error: vectors of Eigen are not where they were in version 3.4.0' >&2; return 1; }
+}
 
 # Limbs of 64 bits, which CGAL's Mpzf needs; configure has them for processors that it knows.
 build_gmp_64() {
@@ -59,8 +77,8 @@ build_zlib() {
 # Eigen's kernels behind the names of BLAS.
 build_blas() {
   mkdir -p "$root/sources/blas-objects"
-  $cxx -std=c++17 -O2 -DNDEBUG -isystem "$root/include/eigen3" -c "$here/blas.cpp" -o "$root/sources/blas-objects/blas.o"
+  $cxx -std=c++17 -O2 -DNDEBUG "${vectors[@]}" -isystem "$root/include/eigen3" -c "$here/blas.cpp" -o "$root/sources/blas-objects/blas.o"
   "$archiver" rcs "$root/lib/libblas.a" "$root/sources/blas-objects/blas.o"
 }
 
-build_all headers zlib gmp_64 mpfr googletest fmt qd metis suitesparse blas muparser expat
+build_all headers eigen_with_vectors zlib gmp_64 mpfr googletest fmt qd metis suitesparse blas muparser expat

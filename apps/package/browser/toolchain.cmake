@@ -26,6 +26,9 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(ashlar_wasm "-mllvm -combiner-global-alias-analysis=false -mllvm -enable-emscripten-sjlj -mllvm -disable-lsr")
 set(ashlar_wasm "${ashlar_wasm} -Xclang -iwithsysroot/include/compat -isystem ${ASHLAR_BROWSER_LIBRARIES}/include")
 set(CMAKE_C_FLAGS_INIT "${ashlar_wasm}")
+# Vectors, with as many registers as Eigen has on 64-bit PCs: its products have the same order there. Eigen's alone:
+# build_libraries.sh says what clang does with others.
+set(ashlar_wasm "${ashlar_wasm} -msimd128 -fno-vectorize -fno-slp-vectorize -DEIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16")
 set(ashlar_wasm_cxx "-D_LIBCPP_ABI_VERSION=2 -fno-threadsafe-statics -fwasm-exceptions")
 set(CMAKE_CXX_FLAGS_INIT "${ashlar_wasm} ${ashlar_wasm_cxx} -include ${CMAKE_CURRENT_LIST_DIR}/missing_names.hpp")
 # Memory as far as 32 bits reach, and twice the stack that a thread has in Linux. node has packages of Debian in a folder of
