@@ -9,7 +9,7 @@
 #include "apps/run/answers/block_name.hpp"
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/run/answers/limit_run.hpp"
-#include "apps/scene/check/crushing_checks.hpp"
+#include "apps/scene/check/joint_tables.hpp"
 
 namespace ashlar {
 namespace {
@@ -32,7 +32,7 @@ std::string joint_in_words(const LeastStrength& least, const Simulation& simulat
 
 void warn_of_idle_crushing(const Scene& scene, const std::optional<RigidModel>& model,
                            Diagnostics& diagnostics) {
-  const std::optional<std::string> given = first_compressive_strength(scene);
+  const std::optional<std::string> given = first_given(scene, "compressive_strength");
   if (!given) return;
   if (!model) return;
   const auto count = std::count_if(model->points.begin(), model->points.end(),

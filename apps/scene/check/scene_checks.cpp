@@ -10,12 +10,10 @@
 #include <string>
 
 #include "apps/scene/check/accuracy_checks.hpp"
-#include "apps/scene/check/closure_checks.hpp"
-#include "apps/scene/check/crushing_checks.hpp"
 #include "apps/scene/check/formulation_checks.hpp"
 #include "apps/scene/check/joint_checks.hpp"
+#include "apps/scene/check/joint_rules.hpp"
 #include "apps/scene/check/measure_checks.hpp"
-#include "apps/scene/check/roughness_checks.hpp"
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/model/block_names.hpp"
 #include "apps/scene/model/joint_table.hpp"
@@ -314,9 +312,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
   check_group_measures(scene, of_blocks);
   check_joints(scene, blocks, of_blocks);
   check_joint_laws(scene, diagnostics);
-  check_compressive_strengths(scene, diagnostics);
-  check_roughness(scene, diagnostics);
-  check_closures(scene, diagnostics);
+  check_joint_rules(scene, diagnostics);
   check_factor_search(scene, diagnostics);
   check_names(scene, scene.water, "water", diagnostics);
   check_water(scene, diagnostics, of_blocks);
