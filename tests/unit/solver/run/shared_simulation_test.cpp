@@ -1,6 +1,7 @@
 // Simulations whose blocks several ranks share.
 #include <algorithm>
 #include <array>
+#include <random>
 
 #include "support/shared_runs.hpp"
 
@@ -93,6 +94,26 @@ TEST(SharedSimulation, APileFallsAlikeOnAnyNumberOfRanks) {
     EXPECT_LT(distance(alone, shared), 1e-9);
     EXPECT_LT(shared.largest_step_residual, 1e-9 * shared.totals.ledger.kinetic);
     EXPECT_GT(shared.contacts.size(), 20u);
+  }
+}
+
+TEST(SharedSimulation, TheClosestJointIsFoundAmongThoseOfAllRanks) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    Scene scene = wall(4, 4);
+    scene.law.largest_closure = 5e-5;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> speed(-0.05, 0.05);
+    for (std::size_t k = 1; k < scene.motions.size(); ++k)
+      scene.motions[k].velocity = {speed(random), speed(random), speed(random)};
+    const MostClosed one = run_alone(scene, 30).totals.extremes.most_closed;
+    EXPECT_GT(one.share, 0.3);
+    for (const int ranks : {2, 3}) {
+      const MostClosed shared =
+          run_shared(scene, owners_of(scene, ranks), ranks, 30).totals.extremes.most_closed;
+      EXPECT_EQ(shared.blocks, one.blocks) << seed;
+      EXPECT_NEAR(shared.time, one.time, 1e-12);
+      EXPECT_NEAR(shared.share, one.share, 1e-6) << seed;
+    }
   }
 }
 
