@@ -136,6 +136,7 @@ std::string tilted_slowly() {
 
 TEST_F(StaticRun, InterruptedSavesItsStateAndGoesOn) {
   write_text(scene_, tilted_slowly());
+  (void)std::signal(SIGINT, SIG_DFL);  // a shell's background job ignores it
   std::thread sender([&] {
     for (int k = 0; k < 60000 && lines("out/history.csv").size() < 20; ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

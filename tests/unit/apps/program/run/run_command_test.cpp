@@ -324,6 +324,7 @@ TEST_F(RunCommand, NewRunRemovesTheResultsOfAnEarlierOne) {
 TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
     const std::string name = "out" + std::to_string(signal);
+    (void)std::signal(signal, SIG_DFL);  // a shell's background job ignores SIGINT
     // Sent as soon as some steps are written, whenever that is.
     std::thread sender([&] {
       for (int k = 0; k < 60000 && lines(name + "/history.csv").size() < 5; ++k)

@@ -74,9 +74,9 @@ TEST(RulesOfCrushingJoints, RigidBlocksOfLimitAnalysisHaveAllOfThem) {
     check_joint_rules(scene, diagnostics);
     return printed(diagnostics);
   };
-  EXPECT_THAT(faults_with("type = \"safety\"\n"),
+  EXPECT_THAT(faults_with("type = \"factor-of-safety\"\n"),
               ::testing::Not(::testing::Contains(::testing::HasSubstr("damping beside"))));
-  EXPECT_THAT(faults_with("type = \"safety\"\nmethod = \"elastic\"\n"),
+  EXPECT_THAT(faults_with("type = \"factor-of-safety\"\nmethod = \"elastic\"\n"),
               ::testing::Contains(::testing::HasSubstr("damping beside")));
 }
 
