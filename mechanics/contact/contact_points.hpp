@@ -38,8 +38,8 @@ struct ContactPointSettings {
   /// Multipliers leave almost no gap under pressure, so that gaps do not show where pressure ends.
   bool multipliers = false;
   double known_overlap = 0.0;  ///< m, >= 0: points with this initial overlap start without force
-  NormalSpring spring =
-      {};  ///< per area: where a joint is closed unevenly, rules are as fine as its curve needs
+  /// Per area: where a joint is closed unevenly, rules are as fine as its curve needs.
+  NormalSpring spring = {};
 };
 
 /// A face of a, then one of b.

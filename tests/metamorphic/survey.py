@@ -196,14 +196,7 @@ def differences(before, after, shift, shares):
 
 
 def differences_of_rows(before, after, shift, summary, shares, skipped=(ABOUT_ORIGIN, STATES)):
-    return [f"{name}: {worst:.2g}, at most {allowed:.2g}"
-            for name, (worst, allowed) in largest_differences(before, after, shift, summary, shares, skipped).items()
-            if not worst <= allowed]
-
-
-def largest_differences(before, after, shift, summary, shares, skipped=(ABOUT_ORIGIN, STATES)):
-    """By the first column of each kind: the largest difference, and what is allowed."""
-    found, kinds = {}, {}
+    found, kinds = [], {}
     names = {measure["name"] for measure in summary["scene"].get("measure", [])}
     for column in before[0] if before else []:
         if any(pattern.match(column) for pattern in skipped):
@@ -223,7 +216,8 @@ def largest_differences(before, after, shift, summary, shares, skipped=(ABOUT_OR
                 largest, worst = max(largest, abs(x)), max(worst, abs(x - y))
         is_length = place or part in ("ux", "uy", "uz") or columns[0] == "penetration.max"
         allowed = shares[0] * size_of(summary) if is_length else shares[1] * largest
-        found[columns[0]] = (worst, allowed)
+        if not worst <= allowed:
+            found.append(f"{columns[0]}: {worst:.2g}, at most {allowed:.2g}")
     return found
 
 

@@ -35,6 +35,7 @@ host=(--host=none CC="$cc $link" CXX="$cxx $link -lc++-except -lc++abi-except" A
 build_compilers=()
 read -ra compile <<<"$cc"
 cmake_options=(-DASHLAR_BROWSER_LIBRARIES="$root" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+# As in toolchain.cmake.
 vectors=(-msimd128 -fno-vectorize -fno-slp-vectorize -DEIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16)
 gmp_options=(--disable-assembly)
 qd_flags='-O2 -ffp-contract=off'
