@@ -64,7 +64,7 @@ TEST(RulesOfCrushingJoints, SpringsThatCrushHaveNoOtherLaw) {
                           StartsWith("s.toml:7:1: error: damping beside compressive_strength; ")));
 }
 
-// Line 2 of the sample: analysis.end_time.
+// Without a method, springs may decide.
 TEST(RulesOfCrushingJoints, RigidBlocksOfLimitAnalysisHaveAllOfThem) {
   const auto faults_with = [](const std::string& analysis) {
     Diagnostics diagnostics;
@@ -74,10 +74,12 @@ TEST(RulesOfCrushingJoints, RigidBlocksOfLimitAnalysisHaveAllOfThem) {
     check_joint_rules(scene, diagnostics);
     return printed(diagnostics);
   };
-  EXPECT_THAT(faults_with("type = \"factor-of-safety\"\n"),
+  EXPECT_THAT(faults_with("type = \"factor-of-safety\"\nmethod = \"limit\"\n"),
               ::testing::Not(::testing::Contains(::testing::HasSubstr("damping beside"))));
-  EXPECT_THAT(faults_with("type = \"factor-of-safety\"\nmethod = \"elastic\"\n"),
-              ::testing::Contains(::testing::HasSubstr("damping beside")));
+  for (const char* method : {"", "method = \"auto\"\n", "method = \"elastic\"\n"})
+    EXPECT_THAT(faults_with(std::string("type = \"factor-of-safety\"\n") + method),
+                ::testing::Contains(::testing::HasSubstr("damping beside")))
+        << method;
 }
 
 const std::string closing = "maximum_closure = 3e-4\nnormal_stiffness = 1e10\n";
