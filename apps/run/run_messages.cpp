@@ -45,6 +45,13 @@ void tell_answers(const Simulation& simulation, const LargestValues& largest, st
                        broken.area, broken.of_area, broken.pairs);
 }
 
+/// Why two blocks are deep in each other, or what keeps them apart.
+const char* reason_of_depth(const JointLaw& law) {
+  if (law.crushes()) return "their joint crushes, and what it has crushed counts";
+  if (law.has_multipliers()) return "a smaller time_step keeps them apart";
+  return "a larger contact.normal_stiffness or augmented = true keeps them apart";
+}
+
 /// Warns of blocks that penetrate deeper than rigid contact would allow.
 void warn_of_depth(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.01;
@@ -53,9 +60,9 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
   const auto name = names_in(simulation);
   err << fmt::format(
       "ashlar: warning: block {} was {:.3g} m deep in block {} at t = {:.6g} s, {:.2g} of the smaller "
-      "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
-      "apart\n",
-      name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
+      "block's size; up to {} is ordinary: {}\n",
+      name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary,
+      reason_of_depth(simulation.system().law(deepest.blocks[0], deepest.blocks[1])));
 }
 
 /// Warns of strains beyond those of linear elasticity, whatever causes them.

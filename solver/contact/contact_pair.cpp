@@ -158,6 +158,10 @@ double ContactPair::depth_found() const {
   return depth;
 }
 
+double ContactPair::depth_of_multipliers() const {
+  return !laws_.empty() && laws_.front().augmented ? depth_found() : 0.0;
+}
+
 ContactPair ContactPair::projected(double depth) const {
   ContactPair pair = *this;
   pair.start_.setZero();
@@ -167,15 +171,18 @@ ContactPair ContactPair::projected(double depth) const {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     PointLaw& law = pair.laws_[k];
     const bool bonded = tied() || law.tension > 0.0;
+    const bool is_spring = !law.augmented;
     law = {law.normal_stiffness, bonded ? law.shear_stiffness : 0.0, 0.0, bonded ? bond.cohesion : 0.0,
            bonded ? bond.tensile_strength : 0.0};
     law.augmented = !tied();
     if (bonded) continue;
-    // After dilation, or closure, the surface is at the height where the point touches.
+    // After dilation, or closure, the surface is at the height where the point touches. Springs stay compressed.
     const double rest = dilation_before(k);
-    const double surface = std::clamp(points_[k].gap, std::min(0.0, rest), std::max(0.0, rest));
+    const double gap = points_[k].gap;
+    const double lowest = std::min(0.0, is_spring ? std::min(rest, gap) : rest);
+    const double surface = std::clamp(gap, lowest, std::max(0.0, rest));
     pair.rests_[k] = surface - depth;
-    pair.start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - surface + depth;
+    pair.start_(0, static_cast<Eigen::Index>(k)) = gap - surface + depth;
   }
   pair.respond_at_start();
   return pair;

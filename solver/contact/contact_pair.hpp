@@ -132,6 +132,8 @@ class ContactPair {
   [[nodiscard]] double spent() const { return spent_; }
   /// Largest depth of points without bond, m, >= 0; 0 for tied blocks.
   [[nodiscard]] double depth_found() const;
+  /// The same of points that multipliers hold, m, >= 0. A depth under springs is their compliance.
+  [[nodiscard]] double depth_of_multipliers() const;
   /// The pair without friction and forces, for the separation of blocks: points resist penetration beyond a depth;
   /// bonds and ties keep the blocks' relative position. @param depth m, >= 0
   [[nodiscard]] ContactPair projected(double depth) const;

@@ -7,8 +7,14 @@
 namespace ashlar {
 namespace {
 
+/// Springs without a bond have finite forces, which are no impulse.
+bool has_impulses(const PointLaw& law) {
+  return law.augmented || law.tension > 0.0;
+}
+
 bool is_held(const PointLaw& law, const PointResponse& point) {
-  return point.state != ContactState::open && (point.force[0] > 0.0 || law.tension > 0.0);
+  return point.state != ContactState::open && has_impulses(law) &&
+         (point.force[0] > 0.0 || law.tension > 0.0);
 }
 
 }  // namespace
@@ -74,7 +80,8 @@ void ContactPair::remember_impulses(const PairResponse& response, const std::vec
                                     std::vector<PointMemory>& memory) const {
   for (std::size_t k = 0; k < impulses.size(); ++k) {
     const Eigen::Vector3d& force = response.points[k].force;
-    if (response.points[k].state == ContactState::open || laws[k].friction_at(force[0]) == 0.0) continue;
+    if (response.points[k].state == ContactState::open || !has_impulses(laws[k])) continue;
+    if (laws[k].friction_at(force[0]) == 0.0) continue;
     Eigen::Vector2d shear = force.tail<2>();
     // Impulses normal to the slope of a point that dilates include some friction.
     if (response.points[k].state == ContactState::sliding && laws[k].dilation.tangent > 0.0)

@@ -40,7 +40,7 @@ void add_parts(const BlockSystem& system, const Island& island, const std::map<i
     const bool a_moves = system.moving()[at(pair.a())];
     IslandPart& part = part_of(a_moves ? pair.a() : pair.b());
     part.free = part.free && a_moves && system.moving()[at(pair.b())];
-    part.depth = std::max(part.depth, pair.depth_found());
+    part.depth = std::max(part.depth, pair.depth_of_multipliers());
     if (!pair.tied() && system.owns_pair(pair.a(), pair.b())) part.contacts.push_back({pair.a(), pair.b()});
   }
   for (const StepBolt* bolt : island.bolts)

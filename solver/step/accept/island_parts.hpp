@@ -20,7 +20,7 @@ struct IslandPart {
   std::vector<PairKey> contacts;  ///< own pairs, ties left out
   /// True if only its own blocks, gravity and loads act on the island, as far as this process knows
   bool free = true;
-  double depth = 0.0;  ///< largest of contacts as detected, m
+  double depth = 0.0;  ///< largest of contacts with multipliers as detected, m
 };
 
 /// Parts of all islands of a posed problem.

@@ -281,7 +281,7 @@ bool too_deep(const BlockSystem& system, const RunState& state, const std::vecto
   if (!system.settings().augmented || !state.has_begun()) return false;
   const double tolerated = system.settings().multipliers.tolerated_depth();
   return any_of_run(system, std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
-                      return pair.depth_found() > tolerated;
+                      return pair.depth_of_multipliers() > tolerated;
                     }));
 }
 

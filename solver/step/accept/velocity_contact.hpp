@@ -12,8 +12,8 @@
 // u vanishes for a point pressed by a constant force: generalized-alpha keeps a velocity there, and without the shift
 // would miss the force that the steady impulse transmits, and its friction. The other integrators have u = v''.
 //
-// G: normal velocities of points under compression, shear velocities too of locked points, all velocities of bonds
-// and ties. N0 moves a point in a step by the allowed deformation of springs: points with less force have little
+// G: normal velocities of points under compression by multipliers, shear velocities too of locked ones, all velocities
+// of bonds and ties. Springs of joints without a bond have finite forces and no impulse. N0 moves a point in a step by the allowed deformation of springs: points with less force have little
 // weight, so that rounding errors do not decide which points are stopped. Impulses may be tensile, as reversed
 // velocities point outwards, but not by more than the compressive impulse of the point in the step. A point that
 // would need more is released, with no force at all in this step. Impulses have no friction; the bounds of shear

@@ -76,6 +76,26 @@ TEST_F(CrushingRun, AnAnswerSaysWhatStrengthItNeeds) {
   EXPECT_THAT(faults_, HasSubstr("the answer needs a compressive strength of"));
 }
 
+// Under 0.8 of its weight per area the cube sinks with 0.2 g: by 0.022 m in 0.15 s.
+TEST_F(CrushingRun, DepthOfWhatIsCrushedIsCalledThat) {
+  const double strength = 0.8 * 2000.0 * g;
+  const std::string scene =
+      "[analysis]\nend_time = 0.15\ntime_step = 1e-3\n[contact]\ncompressive_strength = " +
+      std::to_string(strength) + "\n" + rock_text + R"([[block]]
+name = "ground"
+fixed = true
+box = { min = [-1, -1, -1], max = [2, 2, 0] }
+[[block]]
+name = "cube"
+material = "rock"
+order = 0
+box = { min = [0, 0, 0], max = [1, 1, 1] }
+)";
+  ASSERT_EQ(run_of(scene, "out"), 0) << faults_;
+  EXPECT_NEAR(summary("out").at("penetration_max").get<double>(), 0.5 * 0.2 * g * 0.15 * 0.15, 5e-4);
+  EXPECT_THAT(faults_, HasSubstr("their joint crushes, and what it has crushed counts"));
+}
+
 TEST_F(CrushingRun, LoadsThatCrushJointsAreReported) {
   // The weight needs W/(b t) = 39.24 kPa.
   ASSERT_EQ(run_of(pushed_pier("compressive_strength = 30e3"), "out"), 0) << faults_;
