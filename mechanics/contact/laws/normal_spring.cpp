@@ -60,7 +60,8 @@ double NormalSpring::work(double from, double to) const {
   double sum = 0.0;
   if (start < std::min(to, end)) {
     const double x = start / largest_closure;
-    const double u = (std::min(to, end) / largest_closure - x) / (1.0 - x);
+    // Of a small change too, the difference comes first: it is exact.
+    const double u = (std::min(to, end) - start) / largest_closure / (1.0 - x);
     sum += stiffness * largest_closure * largest_closure * (excess(u) + u * x);
   }
   const double beyond = std::max(start, end);

@@ -123,5 +123,21 @@ TEST(NormalSpring, TheMeanForceDoesTheWorkOfTheEnergy) {
   }
 }
 
+// The mean differs from the force in the middle by a share (d / left)^2 / 12: a difference of energies would differ by
+// rounding error over the share of the change.
+TEST(NormalSpring, TheMeanOverASmallChangeIsTheForceInItsMiddle) {
+  for (const double share : {0.001, 0.1, 0.5, 0.9, 0.98, 1.2}) {
+    for (const double change : {1e-9, 1e-11, 1e-13, 1e-15}) {
+      const double from = share * largest;
+      const double to = from + change * largest;
+      const double middle = curved.force(0.5 * (from + to));
+      EXPECT_NEAR(curved.mean_compression(from, to).force, middle, 1e-13 * middle)
+          << share << " by " << change;
+      EXPECT_NEAR(curved.mean_compression(to, from).force, middle, 1e-13 * middle)
+          << share << " by " << change;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ashlar::normal_spring_test
