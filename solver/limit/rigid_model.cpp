@@ -338,6 +338,7 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
     record.gaps.push_back(std::max(point.contact.gap, 0.0));
   }
   std::vector<PairRecord> result;
+  result.reserve(records.size());
   for (auto& [key, record] : records) result.push_back(std::move(record));
   return result;
 }
@@ -356,6 +357,7 @@ bool loses_strength(const RigidModel& model) {
 void keep_residual_strength(RigidModel& model) {
   if (!loses_strength(model)) return;
   model.has_residual_strength = true;
+  for (RigidPoint& area : model.areas) area.law = failed_law(area.law);
   std::vector<RigidPoint> points;
   std::vector<ConePair> pairs;
   for (ConePair pair : model.pairs) {
@@ -364,8 +366,8 @@ void keep_residual_strength(RigidModel& model) {
       RigidPoint& point = model.points[k];
       if (!point.bar) point.law = failed_law(point.law);
       const JointLaw& law = point.law;
-      // Parts of overlaps transmit cohesion and tension alone.
-      const bool part = !point.bar && point.area > 0.0 && point.spring.normal == 0.0;
+      // Parts of overlaps transmit cohesion and tension alone, but those that stand in place of corners.
+      const bool part = !point.bar && !point.part && point.area > 0.0 && point.spring.normal == 0.0;
       if (!part || law.cohesion > 0.0 || law.tensile_strength > 0.0) points.push_back(std::move(point));
     }
     if (points.size() > begin) pairs.push_back({pair.bodies, begin, points.size()});

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "geometry/triangle_mesh.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar::crushing_run_test {
@@ -56,6 +57,24 @@ TEST_F(CrushingRun, ALoadFactorHasTheLeverArmOfTheStressBlock) {
   EXPECT_GT(found.at("upper").get<double>(), reference * 0.9995);
   EXPECT_LT(found.at("gap").get<double>(), 1.001e-3);
   EXPECT_TRUE(found.at("least_strength").is_null());
+}
+
+// A joint without its lost strength still presses: 1 Pa of cohesion or tension, or less friction after a failure, changes nothing.
+TEST_F(CrushingRun, StrengthThatIsLostLeavesPressureAndCrushing) {
+  const double weight = 800.0 * g, reference = weight * 0.2 / (2.0 * 1000.0);
+  const std::string crushing =
+      "compressive_strength = " + std::to_string(weight / (0.1 * 0.4)) + "\nfriction_angle_residual = ";
+  for (const std::string lost : {"40\ncohesion = 1", "40\ntensile_strength = 1", "39"}) {
+    write_text(scene_, pushed_pier(crushing + lost));
+    ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string(), "--force", "--set",
+                       "analysis.method=limit"}),
+              0)
+        << faults_;
+    const nlohmann::json found = summary("out").at("load_factor");
+    ASSERT_TRUE(found.at("lower").is_number()) << lost;
+    EXPECT_NEAR(found.at("lower").get<double>(), reference, 2e-3 * reference) << lost;
+    EXPECT_LT(found.at("upper").get<double>(), 1.004 * reference) << lost;
+  }
 }
 
 TEST_F(CrushingRun, AnAnswerSaysWhatStrengthItNeeds) {
