@@ -156,14 +156,22 @@ StaticStatus shared_verdict(const RunContext& run, double end_time, StaticStatus
 StaticStatus judged(const RunContext& run, double end_time, StaticStatus status) {
   // Where many iterations are needed blocks often move, which rigid blocks tell in less time than the remaining ones.
   const bool several = !run.system.exchange().alone();
+  if (status == StaticStatus::balancing &&
+      run.state.statics.iterations != StaticSettings::rigid_question_after)
+    return status;
+  const std::vector<BoltState>& bolts = run.state.bolts;
+  const bool bolted = any_of_run(
+      run.system,
+      std::any_of(bolts.begin(), bolts.end(), [](const BoltState& bolt) { return bolt.installed(); }));
   if (status == StaticStatus::balancing)
-    return run.state.statics.iterations != StaticSettings::rigid_question_after ? status
+    return bolted    ? status
            : several ? shared_verdict(run, end_time, status)
                      : rigid_collapse(run.system, run.state, end_time);
   if (status == StaticStatus::moving && doubt_of_motion(run.system, run.state) == MotionDoubt::none)
     return status;
-  const StaticStatus verdict = several ? shared_verdict(run, end_time, status)
-                                       : rigid_verdict(run.system, run.state, end_time, status);
+  const StaticStatus verdict = bolted    ? status
+                               : several ? shared_verdict(run, end_time, status)
+                                         : rigid_verdict(run.system, run.state, end_time, status);
   if (verdict != StaticStatus::moving ||
       doubt_of_motion(run.system, run.state) != MotionDoubt::no_acceleration)
     return verdict;

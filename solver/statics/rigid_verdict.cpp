@@ -138,10 +138,6 @@ StaticStatus verdict_of_path(const BlockSystem& system, const RunState& placed, 
 }  // namespace
 
 StaticStatus rigid_verdict(const BlockSystem& system, RunState& state, double end_time, StaticStatus status) {
-  // The rigid model has no bolts.
-  if (std::any_of(state.bolts.begin(), state.bolts.end(),
-                  [](const BoltState& bolt) { return bolt.installed(); }))
-    return status;
   if (!can_tell(system, state, end_time)) return verdict_on_level(system, state, status);
   if (status == StaticStatus::equilibrium && !is_where_placed(system, state)) return status;
   const RunState placed = as_placed(system, state.pairs);

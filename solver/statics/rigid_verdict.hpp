@@ -9,8 +9,9 @@
 // a soft one, or sways on it, goes as far as one that slides (notes/when_statics_end.md).
 //
 // It applies if rigid blocks are decisive: joints keep their strength when they slide, loads are constant, no support
-// moves, and neither stress of the ground nor an earlier equilibrium under other loads may have left forces. If loads
-// have changed, it states for an analysis without a result if they are beyond what any forces balance, or at that limit.
+// moves, no bolt is installed, and neither stress of the ground nor an earlier equilibrium under other loads may have left
+// forces. If loads have changed, it states for an analysis without a result if they are beyond what any forces balance, or at
+// that limit.
 #pragma once
 
 #include "solver/state/block_system.hpp"

@@ -84,8 +84,12 @@ void warn_of_limits(const Scene& scene, const SupportLine& line, Diagnostics& di
                      ductility(law)));
   if (is_unlimited(law))
     warn("", "its force has no limit, see yield_force, bond_strength and shear_strength");
-  if (law.pretension > 0.0)
-    warn("pretension", fmt::format("pretension does not count ({} N), its strength does", law.pretension));
+  if (!(law.pretension > 0.0)) return;
+  const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
+  warn("pretension",
+       fmt::format("pretension ({} N) {}", law.pretension,
+                   thrust ? "does not count, its strength does"
+                          : "counts along the path from rest, not in the value \"if joints do not wedge\""));
 }
 
 /// Reports removals that match no bolt or prop installed before.
