@@ -41,16 +41,18 @@ void add_places(nlohmann::ordered_json& states, const Pushover& path) {
   }
 }
 
-/// Where rigid blocks have another factor on the same path, which of both to sign: friction has several equilibria.
+/// Where rigid blocks have another factor on the same path, which of both to sign: edges of rigid blocks do not yield as
+/// joints do, and friction has several equilibria.
 std::string rigid_difference(const Answer& answer) {
   constexpr double alike = 1.03;
   if (!answer.limits || !answer.bracket->lower || !answer.limits->path.answer.lower) return "";
   const double elastic = *answer.bracket->lower, rigid = *answer.limits->path.answer.lower;
   if (elastic <= alike * rigid && rigid <= alike * elastic) return "";
   return fmt::format(
-      "; rigid blocks on the same path stand up to {:.5g}: friction has several equilibria here, and the "
-      "forces that "
-      "joints have at rest decide; the smaller factor is safe for both",
+      "; rigid blocks on the same path stand up to {:.5g}: their edges do not yield as joints do, and where "
+      "friction has several equilibria the forces that joints have at rest decide; the smaller factor is "
+      "safe "
+      "for both",
       rigid);
 }
 

@@ -11,6 +11,7 @@
 #include "apps/run/answers/crushing_run.hpp"
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/run/answers/path_run.hpp"
+#include "apps/run/answers/soft_joints.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "geometry/exact/axis_rotation.hpp"
 #include "mechanics/block/rigid_body.hpp"
@@ -257,7 +258,10 @@ Json bars_json(const std::vector<BarForce>& forces, const Simulation& simulation
 
 std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
                      const Simulation& simulation) {
-  return factor_in_words(findings, analysis, simulation) + remarks(findings, simulation);
+  std::string soft;
+  if (findings.path.answer.lower)
+    soft = soft_joint_in_words(findings.path.rest.contacts, signed_motion(findings), simulation);
+  return factor_in_words(findings, analysis, simulation) + soft + remarks(findings, simulation);
 }
 
 Json limit_summary(const LimitFindings& findings, const Simulation& simulation) {
