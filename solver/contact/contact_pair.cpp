@@ -38,7 +38,7 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, ContactP
   if (start.freezes_failure) freeze_failure();
 }
 
-ContactPair::ContactPair(const PairBodies& bodies, std::shared_ptr<const Tie> tie, double stiffness)
+ContactPair::ContactPair(const PairBodies& bodies, const std::shared_ptr<const Tie>& tie, double stiffness)
     : ContactPair(bodies, unbreakable_law(stiffness),
                   tie_points(tie_gap(*tie, *bodies.of_a.state, *bodies.of_b.state)),
                   tie_memory(tie_gap(*tie, *bodies.of_a.state, *bodies.of_b.state)), tie) {}
@@ -53,8 +53,9 @@ void ContactPair::continue_springs() {
   respond_at_start();
 }
 
-ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-                         std::vector<PointMemory> memory, std::shared_ptr<const Tie> tie)
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law,
+                         const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
+                         const std::shared_ptr<const Tie>& tie)
     : ContactPair(bodies, law, points, std::move(memory), PairRows(bodies.of_a, bodies.of_b, points, tie),
                   tie != nullptr) {}
 

@@ -52,7 +52,7 @@ class ContactPair {
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides. Its gap and slip are
   /// the components of the function's coefficient along x, y and z. @param tie not null
   /// @param stiffness Pa/m
-  ContactPair(const PairBodies& bodies, std::shared_ptr<const Tie> tie, double stiffness);
+  ContactPair(const PairBodies& bodies, const std::shared_ptr<const Tie>& tie, double stiffness);
   [[nodiscard]] bool tied() const { return kind_.tied; }
   /// True if its springs represent rigid contact.
   [[nodiscard]] bool rigid() const { return kind_.rigid; }
@@ -232,8 +232,8 @@ class ContactPair {
     std::optional<double> restitution = std::nullopt;
   };
 
-  ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-              std::vector<PointMemory> memory, std::shared_ptr<const Tie> tie);
+  ContactPair(const PairBodies& bodies, const JointLaw& law, const std::vector<ContactPoint>& points,
+              std::vector<PointMemory> memory, const std::shared_ptr<const Tie>& tie);
   /// From points whose rows are known.
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, PairRows rows, bool tied);

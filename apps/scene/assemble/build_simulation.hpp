@@ -17,7 +17,7 @@ struct AutomaticChoice {
   std::string key;  ///< as in the scene, e.g. "contact.distance"
   std::variant<double, bool, std::string> value;
   std::string unit;
-  std::string reason = "";  ///< empty: none is told
+  std::string reason = {};  ///< empty: none is told
 };
 
 /// A simulation ready for its first step.

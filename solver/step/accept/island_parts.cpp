@@ -61,6 +61,7 @@ PartsOfRun::PartsOfRun(const BlockSystem& system, const std::vector<Island>& isl
     if (!island.bodies.empty()) add_parts(system, island, first, pairs, in_free_body, by_first);
   }
   std::vector<int> names;
+  names.reserve(by_first.size());
   for (const auto& [first, part] : by_first) names.push_back(first);
   for (const int first : joined_of_run(system, names)) by_first[first].first = first;
   for (auto& [first, part] : by_first) {

@@ -321,6 +321,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
       covered.add(blocks, contacts.overlaps, finder_.placed(blocks[0]), finder_.placed(blocks[1]));
   // Laws are user functions, which need not be thread-safe.
   std::vector<JointLaw> laws;
+  laws.reserve(found.size());
   for (const FoundContacts& pair : found) laws.push_back(law_of(system, pair.blocks));
   std::vector<std::optional<PairRecipe>> made(found.size());
   parallel_for(settings.threads, found.size(), [&](std::size_t n) {
@@ -348,6 +349,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   parallel_for(settings.threads, recipes.size(),
                [&](std::size_t n) { assembled[n] = make_pair(system, state, std::move(recipes[n])); });
   std::vector<ContactPair> pairs;
+  pairs.reserve(assembled.size());
   for (std::optional<ContactPair>& pair : assembled) pairs.push_back(std::move(*pair));
   if (continues) bound_energies(system, state, pairs);
   for (const TiedBlocks& tied : system.ties()) {
