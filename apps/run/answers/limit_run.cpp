@@ -11,11 +11,11 @@
 #include "apps/run/answers/crushing_run.hpp"
 #include "apps/run/answers/factor_analysis.hpp"
 #include "apps/run/answers/path_run.hpp"
-#include "apps/run/answers/soft_joints.hpp"
 #include "apps/scene/assemble/joint_selection.hpp"
 #include "geometry/exact/axis_rotation.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/limit/pressure_friction.hpp"
+#include "solver/limit/soft_joints.hpp"
 
 namespace ashlar {
 namespace {
@@ -119,6 +119,20 @@ std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& 
     text += fmt::format("; {} if joints dilate: {}", between(associated),
                         words_of(findings.associated, simulation));
   return text;
+}
+
+/// "; joints are soft: that of floor and stone closes by ..."; empty: none is
+std::string soft_joint_in_words(const LimitFindings& findings, const Simulation& simulation) {
+  if (!findings.path.answer.lower) return "";
+  const std::optional<SoftJoint> joint =
+      softest_joint(findings.path.rest.contacts, signed_motion(findings), simulation.system());
+  if (!joint) return "";
+  return fmt::format(
+      "; joints are soft: that of {} and {} closes by {:.3g} mm under its force, and blocks that tip about "
+      "its "
+      "edge move from about {:.2g} % less on; analysis.method = \"elastic\" follows it",
+      block_name(simulation, joint->blocks[0]), block_name(simulation, joint->blocks[1]),
+      1e3 * joint->closure, 100.0 * joint->share);
 }
 
 /// Blocks to be checked by an engineer in addition to the factor.
@@ -258,10 +272,8 @@ Json bars_json(const std::vector<BarForce>& forces, const Simulation& simulation
 
 std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
                      const Simulation& simulation) {
-  std::string soft;
-  if (findings.path.answer.lower)
-    soft = soft_joint_in_words(findings.path.rest.contacts, signed_motion(findings), simulation);
-  return factor_in_words(findings, analysis, simulation) + soft + remarks(findings, simulation);
+  return factor_in_words(findings, analysis, simulation) + soft_joint_in_words(findings, simulation) +
+         remarks(findings, simulation);
 }
 
 Json limit_summary(const LimitFindings& findings, const Simulation& simulation) {

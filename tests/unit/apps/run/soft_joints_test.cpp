@@ -1,4 +1,4 @@
-// Factors of rigid blocks on joints that yield where blocks tip.
+// Factors of rigid blocks on joints that yield where blocks tip (soft_joints.hpp).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,11 +1,8 @@
-#include "apps/run/answers/soft_joints.hpp"
-
-#include <fmt/format.h>
+#include "solver/limit/soft_joints.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/run/answers/block_name.hpp"
 #include "geometry/exact/rounded_functions.hpp"
 
 namespace ashlar {
@@ -49,27 +46,15 @@ SoftJoint compliance_of(const PairRecord& record, const JointLaw& law, const Lim
 }  // namespace
 
 std::optional<SoftJoint> softest_joint(const std::vector<PairRecord>& rest, const LimitMotion& motion,
-                                       const Simulation& simulation) {
+                                       const BlockSystem& system) {
   std::optional<SoftJoint> softest;
   for (const PairRecord& record : rest) {
-    const JointLaw law = simulation.system().law(record.a, record.b);
+    const JointLaw law = system.law(record.a, record.b);
     if (law.rigid || !law.area_springs) continue;
     const SoftJoint joint = compliance_of(record, law, motion);
     if (joint.share >= worth_telling && (!softest || joint.share > softest->share)) softest = joint;
   }
   return softest;
-}
-
-std::string soft_joint_in_words(const std::vector<PairRecord>& rest, const LimitMotion& motion,
-                                const Simulation& simulation) {
-  const std::optional<SoftJoint> joint = softest_joint(rest, motion, simulation);
-  if (!joint) return "";
-  return fmt::format(
-      "; joints are soft: that of {} and {} closes by {:.3g} mm under its force, and blocks that tip about "
-      "its "
-      "edge move from about {:.2g} % less on; analysis.method = \"elastic\" follows it",
-      block_name(simulation, joint->blocks[0]), block_name(simulation, joint->blocks[1]),
-      1e3 * joint->closure, 100.0 * joint->share);
 }
 
 }  // namespace ashlar

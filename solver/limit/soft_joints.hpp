@@ -7,12 +7,11 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "apps/run/answers/shown_state.hpp"
 #include "solver/limit/limit_motion.hpp"
-#include "solver/run/simulation.hpp"
+#include "solver/state/block_system.hpp"
+#include "solver/state/run_state.hpp"
 
 namespace ashlar {
 
@@ -25,10 +24,6 @@ struct SoftJoint {
 /// The joint about which blocks tip in a motion with the largest share, of those with a given stiffness and area springs.
 /// @param rest contacts of blocks at rest below the limit, N. @return empty: no share is worth telling
 [[nodiscard]] std::optional<SoftJoint> softest_joint(const std::vector<PairRecord>& rest,
-                                                     const LimitMotion& motion, const Simulation& simulation);
-
-/// "; joints are soft: that of floor and stone closes by ..."; empty: there is none
-[[nodiscard]] std::string soft_joint_in_words(const std::vector<PairRecord>& rest, const LimitMotion& motion,
-                                              const Simulation& simulation);
+                                                     const LimitMotion& motion, const BlockSystem& system);
 
 }  // namespace ashlar
