@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
+#include "mechanics/contact/laws/joint_law.hpp"
 
 namespace ashlar {
 
