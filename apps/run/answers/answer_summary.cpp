@@ -51,8 +51,7 @@ std::string rigid_difference(const Answer& answer) {
   return fmt::format(
       "; rigid blocks on the same path stand up to {:.5g}: their edges do not yield as joints do, and where "
       "friction has several equilibria the forces that joints have at rest decide; the smaller factor is "
-      "safe "
-      "for both",
+      "safe for both",
       rigid);
 }
 

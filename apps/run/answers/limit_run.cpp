@@ -129,8 +129,7 @@ std::string soft_joint_in_words(const LimitFindings& findings, const Simulation&
   if (!joint) return "";
   return fmt::format(
       "; joints are soft: that of {} and {} closes by {:.3g} mm under its force, and blocks that tip about "
-      "its "
-      "edge move from about {:.2g} % less on; analysis.method = \"elastic\" follows it",
+      "its edge move from about {:.2g} % less on; analysis.method = \"elastic\" follows it",
       block_name(simulation, joint->blocks[0]), block_name(simulation, joint->blocks[1]),
       1e3 * joint->closure, 100.0 * joint->share);
 }

@@ -175,14 +175,16 @@ TEST_F(CrushingRun, AStaticAnalysisStandsAndMovesWhereTheStressBlockSays) {
 }
 
 /// Piers of any shape, strength and order. @param share of the width that crushes under the weight
-std::string any_pier(const Vector3& size, double share, int order, const std::string& method) {
+/// @param lost strength that the joint loses
+std::string any_pier(const Vector3& size, double share, int order, const std::string& method,
+                     const std::string& lost = "") {
   const double weight = 2000.0 * size.prod() * g;
   std::ostringstream text;
   text << "[analysis]\ntype = \"capacity\"\nmethod = \"" << method
        << "\"\ncapacity = { lower = 0.01, upper = 2, tolerance = 1e-3 }\n[contact]\nfriction_angle = 50\n"
        << "normal_stiffness = 1e12\nshear_stiffness = 5e11\ncompressive_strength = "
        << weight / (share * size[0] * size[1]) << '\n'
-       << rock_text << "[[block]]\nname = \"ground\"\nfixed = true\n"
+       << lost << rock_text << "[[block]]\nname = \"ground\"\nfixed = true\n"
        << "box = { min = [-2, -2, -1], max = [4, 4, 0] }\n[[block]]\nname = \"pier\"\nmaterial = "
           "\"rock\"\norder = "
        << order << "\nbox = { min = [0, 0, 0], max = [" << size[0] << ", " << size[1] << ", " << size[2]
@@ -205,6 +207,12 @@ TEST_F(CrushingRun, StaticAnalysesAgreeWithLimitAnalysis) {
       ASSERT_EQ(run_of(any_pier(size, share, k % 3, method), out), 0) << faults_;
       EXPECT_NEAR(summary(out).at("load_factor").at("lower").get<double>(), 1.0 - share, 0.01 * (1.0 - share))
           << out << ", size " << size.transpose() << ", share " << share;
+    }
+    for (const char* lost : {"cohesion = 1\n", "tensile_strength = 1\n", "friction_angle_residual = 49\n"}) {
+      const std::string out = "lost" + std::to_string(k) + lost[0];
+      ASSERT_EQ(run_of(any_pier(size, share, k % 3, "limit", lost), out), 0) << faults_;
+      EXPECT_NEAR(summary(out).at("load_factor").at("lower").get<double>(), 1.0 - share, 0.01 * (1.0 - share))
+          << lost << ", size " << size.transpose() << ", share " << share;
     }
   }
 }

@@ -130,8 +130,7 @@ pretension = {}
 )",
                         order, share * weight));
       ASSERT_EQ(run("clamped", {"--force"}), 0) << faults_;
-      EXPECT_EQ(summary("clamped")["status"], share > 1.0 ? "equilibrium" : "moving")
-          << order << ' ' << share;
+      EXPECT_EQ(summary("clamped")["status"], "equilibrium") << order << ' ' << share;
     }
   }
 }
