@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "support/simulations.hpp"
 
@@ -79,6 +80,31 @@ TEST(SpringsBesideMultipliers, ABlockOnAJointThatClosesMovesAsWithoutMultipliers
     ASSERT_TRUE(run_until(alone, step * 1e-4));
     ASSERT_TRUE(run_until(beside, step * 1e-4));
     EXPECT_NEAR(place_of(beside, 1, {0, 0, 0}).z(), place_of(alone, 1, {0, 0, 0}).z(), 1e-12) << step;
+  }
+}
+
+// Random towers: multipliers between the cubes, or springs so stiff that they close by less than the tolerance.
+TEST(SpringsBesideMultipliers, RandomTowersMoveAsBySpringsAlone) {
+  std::mt19937_64 random(20261201);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * 0x1p-53 * static_cast<double>(random() >> 11U);
+  };
+  for (int trial = 0; trial < 8; ++trial) {
+    const int cubes = 1 + trial % 3;
+    JointLaw law = springs_on_base();
+    law.normal_stiffness = stiffness * between(0.1, 1.0);
+    if (trial % 2 == 1) law.largest_closure = between(5.0, 20.0) * cubes * density * gravity / stiffness;
+    const double mass = cubes * density;
+    const double half = std::numbers::pi / std::sqrt(law.normal_stiffness / mass);
+    Simulation springs = tower(cubes, law, false, half / 200.0);
+    Simulation beside = tower(cubes, law, true, half / 200.0);
+    for (const double share : {0.4, 0.8, 1.2}) {
+      ASSERT_TRUE(run_until(springs, share * half));
+      ASSERT_TRUE(run_until(beside, share * half));
+      EXPECT_NEAR(place_of(beside, 1, {0, 0, 0}).z(), place_of(springs, 1, {0, 0, 0}).z(),
+                  0.01 * mass * gravity / law.normal_stiffness)
+          << trial << " at " << share;
+    }
   }
 }
 
